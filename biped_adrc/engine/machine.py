@@ -98,7 +98,8 @@ def object_code(
 
     optimised: whether LLVM's passes of level 3 run before, which also join like operations into vector
     instructions. A traced function is one straight line in which each expression stands once: there they take a
-    third of the time and change nothing. No fast-math flags, so sums keep their order.
+    third of the time and change nothing; in the text of the march they are done already (`kernels.write`). No
+    fast-math flags, so sums keep their order.
     """
     module.verify()
     if optimised:

@@ -1,47 +1,20 @@
-; sources 76aabf852c19b1836ae8d1616c952aef, text 76a099898943c9107fd37fec1ad4fdd5
-; ModuleID = '<string>'
-source_filename = "<string>"
+; sources 7d002691fc050b971284d5a4fa24d46c, text f2546e3dc71a2a073194f3138dee479d
+
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
-@".const.unknown error when calling native function" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.2" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.1" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.4" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.5" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.3" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.7" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.8" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.6" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.10" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.11" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.9" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v12B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3dueB3v13B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.13" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.14" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.12" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.16" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.17" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.15" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels11relax_slopeB3v23B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.19" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.20" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.18" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.22" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.23" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.21" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6matrixB3v28B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_281_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6matrixB3v29B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_284_29 = weak local_unnamed_addr global ptr null
@@ -53,9 +26,6 @@ source_filename = "<string>"
 @_ZN08NumbaEnv18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7rk4_sumB3v25B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2a10float64_2a10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.25" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.26" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.24" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv5numba7cpython7numbers14int_power_impl12_3clocals_3e9int_powerB3v37B42c8tJTC_2fWQA93W1AaAIYBPIqRBFCjDSZRVAJmaQIAEdx = weak local_unnamed_addr global ptr null
 @.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd = internal constant [133 x i8] c"\80\04\95z\00\00\00\00\00\00\00\8C\08builtins\94\8C\0DOverflowError\94\93\94)\8C\09int_power\94\8CF/work/main/.venv/lib/python3.11/site-packages/numba/cpython/numbers.py\94K\DE\87\94\87\94."
 @.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd.sha1 = internal constant [20 x i8] c"\89(\CF6}\CD\B5\B0og\CC\E6\84t\C0\D7}a\C7\BD"
@@ -64,25 +34,14 @@ source_filename = "<string>"
 @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366.sha1 = internal constant [20 x i8] c"\B2\80\08\A0\F8\8B\AD_\F0\F0$>\84\DA\B9\0C\AB\19\B3f"
 @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366 = internal constant { ptr, i32, ptr, ptr, i32 } { ptr @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366, i32 69, ptr @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366.sha1, ptr null, i32 0 }
 @_ZN08NumbaEnv18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
-@".const.unknown error when calling native function.28" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.27" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.30" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.31" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.29" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels5brentB3v42B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd10float64_2a10float64_2adddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5denseB3v40B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4liftB3v43B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.33" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.34" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.32" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels7overdueB3v45B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6passedB3v46B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.36" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.37" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.35" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7suspectB3v54B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addx = weak local_unnamed_addr global ptr null
@@ -91,15 +50,9 @@ source_filename = "<string>"
 @_ZN08NumbaEnv18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7code_ofB3v47B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2addx = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.39" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.40" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.38" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4slowB3v57B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.42" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.43" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.41" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v60B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5beginB3v61B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
@@ -111,49 +64,27 @@ source_filename = "<string>"
 @_ZN08NumbaEnv18biped_adrc_kernels6piecesB3v51B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEdd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7pass_onB3v68B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.45" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.46" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.44" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.48" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.49" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.47" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.51" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.52" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.50" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
-@".const.unknown error when calling native function.54" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.53" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9next_tickB3v75B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v52B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7is_tickB3v15B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a = weak local_unnamed_addr global ptr null
-@".const.Error creating Python tuple from runtime exception arguments.56" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@".const.unknown error when calling native function.57" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.55" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v17B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
-@".const.unknown error when calling native function.59" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.58" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a = weak local_unnamed_addr global ptr null
-@PyExc_RuntimeError = external global i8
-@".const.Error creating Python tuple from runtime exception arguments.61" = internal constant [61 x i8] c"Error creating Python tuple from runtime exception arguments\00"
-@PyExc_StopIteration = external global i8
-@PyExc_SystemError = external global i8
-@".const.unknown error when calling native function.62" = internal constant [43 x i8] c"unknown error when calling native function\00"
-@".const.<numba.core.cpu.CPUContext>.60" = internal constant [28 x i8] c"<numba.core.cpu.CPUContext>\00"
 @_ZN08NumbaEnv18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v82B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v65B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEb = weak local_unnamed_addr global ptr null
@@ -172,18 +103,18 @@ B0.endif:
   %.10383 = icmp sgt i64 %..10, 0
   br i1 %.10383, label %B70.lr.ph, label %B94.endif
 
-B70.lr.ph:                                        ; preds = %B0.endif
+B70.lr.ph:
   %xtraiter = and i64 %..10, 7
-  %0 = icmp ult i64 %..10, 8
+  %0 = icmp samesign ult i64 %..10, 8
   br i1 %0, label %B70.epil.preheader, label %B70.lr.ph.new
 
-B70.lr.ph.new:                                    ; preds = %B70.lr.ph
+B70.lr.ph.new:
   %unroll_iter = and i64 %..10, 9223372036854775800
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 504
   br label %B70
 
-B70:                                              ; preds = %B70, %B70.lr.ph.new
+B70:
   %.1098284 = phi i64 [ 0, %B70.lr.ph.new ], [ %.116.7, %B70 ]
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 504
   %.143 = load i64, ptr %sunkaddr, align 8
   %.144 = inttoptr i64 %.143 to ptr
   %1 = shl i64 %.1098284, 3
@@ -192,246 +123,196 @@ B70:                                              ; preds = %B70, %B70.lr.ph.new
   %.143.1 = load i64, ptr %sunkaddr, align 8
   %.144.1 = inttoptr i64 %.143.1 to ptr
   %scevgep109 = getelementptr i8, ptr %.144.1, i64 8
-  %2 = shl i64 %.1098284, 3
-  %scevgep110 = getelementptr i8, ptr %scevgep109, i64 %2
+  %scevgep110 = getelementptr i8, ptr %scevgep109, i64 %1
   store double 0.000000e+00, ptr %scevgep110, align 8
   %.143.2 = load i64, ptr %sunkaddr, align 8
   %.144.2 = inttoptr i64 %.143.2 to ptr
   %scevgep107 = getelementptr i8, ptr %.144.2, i64 16
-  %3 = shl i64 %.1098284, 3
-  %scevgep108 = getelementptr i8, ptr %scevgep107, i64 %3
+  %scevgep108 = getelementptr i8, ptr %scevgep107, i64 %1
   store double 0.000000e+00, ptr %scevgep108, align 8
   %.143.3 = load i64, ptr %sunkaddr, align 8
   %.144.3 = inttoptr i64 %.143.3 to ptr
   %scevgep105 = getelementptr i8, ptr %.144.3, i64 24
-  %4 = shl i64 %.1098284, 3
-  %scevgep106 = getelementptr i8, ptr %scevgep105, i64 %4
+  %scevgep106 = getelementptr i8, ptr %scevgep105, i64 %1
   store double 0.000000e+00, ptr %scevgep106, align 8
   %.143.4 = load i64, ptr %sunkaddr, align 8
   %.144.4 = inttoptr i64 %.143.4 to ptr
   %scevgep103 = getelementptr i8, ptr %.144.4, i64 32
-  %5 = shl i64 %.1098284, 3
-  %scevgep104 = getelementptr i8, ptr %scevgep103, i64 %5
+  %scevgep104 = getelementptr i8, ptr %scevgep103, i64 %1
   store double 0.000000e+00, ptr %scevgep104, align 8
   %.143.5 = load i64, ptr %sunkaddr, align 8
   %.144.5 = inttoptr i64 %.143.5 to ptr
   %scevgep101 = getelementptr i8, ptr %.144.5, i64 40
-  %6 = shl i64 %.1098284, 3
-  %scevgep102 = getelementptr i8, ptr %scevgep101, i64 %6
+  %scevgep102 = getelementptr i8, ptr %scevgep101, i64 %1
   store double 0.000000e+00, ptr %scevgep102, align 8
   %.143.6 = load i64, ptr %sunkaddr, align 8
   %.144.6 = inttoptr i64 %.143.6 to ptr
   %scevgep99 = getelementptr i8, ptr %.144.6, i64 48
-  %7 = shl i64 %.1098284, 3
-  %scevgep100 = getelementptr i8, ptr %scevgep99, i64 %7
+  %scevgep100 = getelementptr i8, ptr %scevgep99, i64 %1
   store double 0.000000e+00, ptr %scevgep100, align 8
   %.116.7 = add nuw nsw i64 %.1098284, 8
   %.143.7 = load i64, ptr %sunkaddr, align 8
   %.144.7 = inttoptr i64 %.143.7 to ptr
   %scevgep97 = getelementptr i8, ptr %.144.7, i64 56
-  %8 = shl i64 %.1098284, 3
-  %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %8
+  %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %1
   store double 0.000000e+00, ptr %scevgep98, align 8
   %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.116.7
   br i1 %niter.ncmp.7, label %B94.endif.loopexit.unr-lcssa, label %B70
 
-B136:                                             ; preds = %B136.endif.loopexit, %B136.preheader
+B136:
   %.280 = phi i64 [ %.336, %B136.endif.loopexit ], [ %.280.pre, %B136.preheader ]
-  %K.2.092 = phi ptr [ %.343, %B136.endif.loopexit ], [ %37, %B136.preheader ]
+  %K.2.092 = phi ptr [ %.343, %B136.endif.loopexit ], [ %7, %B136.preheader ]
   %.2468890 = phi i64 [ %.253, %B136.endif.loopexit ], [ 0, %B136.preheader ]
-  %9 = icmp eq i64 %xtraiter.i, 0
   %.281 = inttoptr i64 %.280 to ptr
   %.282 = shl nuw nsw i64 %.2468890, 1
   %.283 = getelementptr i64, ptr %.281, i64 %.282
   %.284 = load i64, ptr %.283, align 8
-  %sunkaddr112 = getelementptr i8, ptr %arg.r, i64 488
-  %.287 = load i64, ptr %sunkaddr112, align 8
+  %.287 = load i64, ptr %sunkaddr116, align 8
   %.288 = inttoptr i64 %.287 to ptr
-  %sunkaddr113 = getelementptr i8, ptr %arg.r, i64 512
-  %.291 = load i64, ptr %sunkaddr113, align 8
+  %.291 = load i64, ptr %sunkaddr117, align 8
   %.292 = inttoptr i64 %.291 to ptr
   %.294 = inttoptr i64 %.284 to ptr
   tail call void %.294(ptr %K.2.092, ptr %.288, ptr %.292)
-  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 504
   %.299 = load i64, ptr %sunkaddr114, align 8
-  %.303 = load i64, ptr %sunkaddr113, align 8
-  br i1 %9, label %B36.i.preheader, label %B36.prol.i.preheader
+  %.303 = load i64, ptr %sunkaddr117, align 8
+  %.pre = inttoptr i64 %.303 to ptr
+  %.pre7 = inttoptr i64 %.299 to ptr
+  br i1 %8, label %B36.i.preheader, label %B36.prol.i
 
-B36.prol.i.preheader:                             ; preds = %B136
-  br label %B36.prol.i
-
-B36.prol.i:                                       ; preds = %B36.prol.i, %B36.prol.i.preheader
-  %.1043941.prol.i = phi i64 [ %.111.prol.i, %B36.prol.i ], [ 0, %B36.prol.i.preheader ]
-  %10 = inttoptr i64 %.303 to ptr
-  %11 = inttoptr i64 %.299 to ptr
+B36.prol.i:
+  %.1043941.prol.i = phi i64 [ %.111.prol.i, %B36.prol.i ], [ 0, %B136 ]
   %.111.prol.i = add nuw nsw i64 %.1043941.prol.i, 1
-  %12 = shl nuw nsw i64 %.1043941.prol.i, 3
-  %scevgep57 = getelementptr i8, ptr %11, i64 %12
+  %2 = shl nuw nsw i64 %.1043941.prol.i, 3
+  %scevgep57 = getelementptr i8, ptr %.pre7, i64 %2
   %.138.prol.i = load double, ptr %scevgep57, align 8, !noalias !0
-  %13 = shl nuw nsw i64 %.1043941.prol.i, 3
-  %scevgep56 = getelementptr i8, ptr %10, i64 %13
+  %scevgep56 = getelementptr i8, ptr %.pre, i64 %2
   %.141.prol.i = load double, ptr %scevgep56, align 8, !noalias !0
   %.144.prol.i = fadd double %.138.prol.i, %.141.prol.i
   store double %.144.prol.i, ptr %scevgep57, align 8, !noalias !0
   %prol.iter.cmp.not.i = icmp eq i64 %xtraiter.i, %.111.prol.i
   br i1 %prol.iter.cmp.not.i, label %B36.i.preheader, label %B36.prol.i, !llvm.loop !3
 
-B36.i.preheader:                                  ; preds = %B36.prol.i, %B136
-  %.1043941.i.ph = phi i64 [ 0, %B136 ], [ %.111.prol.i, %B36.prol.i ]
-  %14 = inttoptr i64 %.303 to ptr
-  %15 = inttoptr i64 %.299 to ptr
-  %16 = sub i64 %.9.fr, %.1043941.i.ph
-  %scevgep60 = getelementptr i8, ptr %14, i64 56
-  %17 = shl nuw nsw i64 %.1043941.i.ph, 3
-  %scevgep61 = getelementptr i8, ptr %scevgep60, i64 %17
-  %scevgep77 = getelementptr i8, ptr %15, i64 56
-  %scevgep78 = getelementptr i8, ptr %scevgep77, i64 %17
+B36.i.preheader:
+  %scevgep60 = getelementptr i8, ptr %.pre, i64 56
+  %scevgep61 = getelementptr i8, ptr %scevgep60, i64 %10
+  %scevgep77 = getelementptr i8, ptr %.pre7, i64 56
+  %scevgep78 = getelementptr i8, ptr %scevgep77, i64 %10
   br label %B36.i
 
-B36.i:                                            ; preds = %B36.i, %B36.i.preheader
+B36.i:
   %lsr.iv58 = phi i64 [ -2, %B36.i.preheader ], [ %lsr.iv.next59, %B36.i ]
-  %18 = shl i64 %lsr.iv58, 3
-  %scevgep79 = getelementptr i8, ptr %scevgep78, i64 %18
+  %3 = shl i64 %lsr.iv58, 3
+  %scevgep79 = getelementptr i8, ptr %scevgep78, i64 %3
   %scevgep80 = getelementptr i8, ptr %scevgep79, i64 -40
   %.138.i = load double, ptr %scevgep80, align 8, !noalias !0
-  %19 = shl i64 %lsr.iv58, 3
-  %scevgep75 = getelementptr i8, ptr %scevgep61, i64 %19
+  %scevgep75 = getelementptr i8, ptr %scevgep61, i64 %3
   %scevgep76 = getelementptr i8, ptr %scevgep75, i64 -40
   %.141.i = load double, ptr %scevgep76, align 8, !noalias !0
   %.144.i = fadd double %.138.i, %.141.i
   store double %.144.i, ptr %scevgep80, align 8, !noalias !0
-  %20 = shl i64 %lsr.iv58, 3
-  %scevgep92 = getelementptr i8, ptr %scevgep78, i64 %20
-  %scevgep93 = getelementptr i8, ptr %scevgep92, i64 -32
+  %scevgep93 = getelementptr i8, ptr %scevgep79, i64 -32
   %.138.1.i = load double, ptr %scevgep93, align 8, !noalias !0
-  %21 = shl i64 %lsr.iv58, 3
-  %scevgep73 = getelementptr i8, ptr %scevgep61, i64 %21
-  %scevgep74 = getelementptr i8, ptr %scevgep73, i64 -32
+  %scevgep74 = getelementptr i8, ptr %scevgep75, i64 -32
   %.141.1.i = load double, ptr %scevgep74, align 8, !noalias !0
   %.144.1.i = fadd double %.138.1.i, %.141.1.i
   store double %.144.1.i, ptr %scevgep93, align 8, !noalias !0
-  %22 = shl i64 %lsr.iv58, 3
-  %scevgep90 = getelementptr i8, ptr %scevgep78, i64 %22
-  %scevgep91 = getelementptr i8, ptr %scevgep90, i64 -24
+  %scevgep91 = getelementptr i8, ptr %scevgep79, i64 -24
   %.138.2.i = load double, ptr %scevgep91, align 8, !noalias !0
-  %23 = shl i64 %lsr.iv58, 3
-  %scevgep71 = getelementptr i8, ptr %scevgep61, i64 %23
-  %scevgep72 = getelementptr i8, ptr %scevgep71, i64 -24
+  %scevgep72 = getelementptr i8, ptr %scevgep75, i64 -24
   %.141.2.i = load double, ptr %scevgep72, align 8, !noalias !0
   %.144.2.i = fadd double %.138.2.i, %.141.2.i
   store double %.144.2.i, ptr %scevgep91, align 8, !noalias !0
-  %24 = shl i64 %lsr.iv58, 3
-  %scevgep88 = getelementptr i8, ptr %scevgep78, i64 %24
-  %scevgep89 = getelementptr i8, ptr %scevgep88, i64 -16
+  %scevgep89 = getelementptr i8, ptr %scevgep79, i64 -16
   %.138.3.i = load double, ptr %scevgep89, align 8, !noalias !0
-  %25 = shl i64 %lsr.iv58, 3
-  %scevgep69 = getelementptr i8, ptr %scevgep61, i64 %25
-  %scevgep70 = getelementptr i8, ptr %scevgep69, i64 -16
+  %scevgep70 = getelementptr i8, ptr %scevgep75, i64 -16
   %.141.3.i = load double, ptr %scevgep70, align 8, !noalias !0
   %.144.3.i = fadd double %.138.3.i, %.141.3.i
   store double %.144.3.i, ptr %scevgep89, align 8, !noalias !0
-  %26 = shl i64 %lsr.iv58, 3
-  %scevgep86 = getelementptr i8, ptr %scevgep78, i64 %26
-  %scevgep87 = getelementptr i8, ptr %scevgep86, i64 -8
+  %scevgep87 = getelementptr i8, ptr %scevgep79, i64 -8
   %.138.4.i = load double, ptr %scevgep87, align 8, !noalias !0
-  %27 = shl i64 %lsr.iv58, 3
-  %scevgep67 = getelementptr i8, ptr %scevgep61, i64 %27
-  %scevgep68 = getelementptr i8, ptr %scevgep67, i64 -8
+  %scevgep68 = getelementptr i8, ptr %scevgep75, i64 -8
   %.141.4.i = load double, ptr %scevgep68, align 8, !noalias !0
   %.144.4.i = fadd double %.138.4.i, %.141.4.i
   store double %.144.4.i, ptr %scevgep87, align 8, !noalias !0
-  %28 = shl i64 %lsr.iv58, 3
-  %scevgep85 = getelementptr i8, ptr %scevgep78, i64 %28
-  %.138.5.i = load double, ptr %scevgep85, align 8, !noalias !0
-  %29 = shl i64 %lsr.iv58, 3
-  %scevgep66 = getelementptr i8, ptr %scevgep61, i64 %29
-  %.141.5.i = load double, ptr %scevgep66, align 8, !noalias !0
+  %.138.5.i = load double, ptr %scevgep79, align 8, !noalias !0
+  %.141.5.i = load double, ptr %scevgep75, align 8, !noalias !0
   %.144.5.i = fadd double %.138.5.i, %.141.5.i
-  store double %.144.5.i, ptr %scevgep85, align 8, !noalias !0
-  %scevgep83 = getelementptr i8, ptr %scevgep78, i64 %29
-  %scevgep84 = getelementptr i8, ptr %scevgep83, i64 8
+  store double %.144.5.i, ptr %scevgep79, align 8, !noalias !0
+  %scevgep84 = getelementptr i8, ptr %scevgep79, i64 8
   %.138.6.i = load double, ptr %scevgep84, align 8, !noalias !0
-  %30 = shl i64 %lsr.iv58, 3
-  %scevgep64 = getelementptr i8, ptr %scevgep61, i64 %30
-  %scevgep65 = getelementptr i8, ptr %scevgep64, i64 8
+  %scevgep65 = getelementptr i8, ptr %scevgep75, i64 8
   %.141.6.i = load double, ptr %scevgep65, align 8, !noalias !0
   %.144.6.i = fadd double %.138.6.i, %.141.6.i
   store double %.144.6.i, ptr %scevgep84, align 8, !noalias !0
-  %31 = shl i64 %lsr.iv58, 3
-  %scevgep81 = getelementptr i8, ptr %scevgep78, i64 %31
-  %scevgep82 = getelementptr i8, ptr %scevgep81, i64 16
+  %scevgep82 = getelementptr i8, ptr %scevgep79, i64 16
   %.138.7.i = load double, ptr %scevgep82, align 8, !noalias !0
-  %32 = shl i64 %lsr.iv58, 3
-  %scevgep62 = getelementptr i8, ptr %scevgep61, i64 %32
-  %scevgep63 = getelementptr i8, ptr %scevgep62, i64 16
+  %scevgep63 = getelementptr i8, ptr %scevgep75, i64 16
   %.141.7.i = load double, ptr %scevgep63, align 8, !noalias !0
   %.144.7.i = fadd double %.138.7.i, %.141.7.i
   store double %.144.7.i, ptr %scevgep82, align 8, !noalias !0
   %lsr.iv.next59 = add i64 %lsr.iv58, 8
-  %exitcond.not.7.i = icmp eq i64 %16, %lsr.iv.next59
+  %exitcond.not.7.i = icmp eq i64 %9, %lsr.iv.next59
   br i1 %exitcond.not.7.i, label %B136.endif.loopexit, label %B36.i, !llvm.loop !5
 
-common.ret:                                       ; preds = %B136.endif.loopexit, %B36.prol.loopexit.i.loopexit.us, %B136.us2.us, %B136.us, %B94.endif
+common.ret:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
-B94.endif.loopexit.unr-lcssa:                     ; preds = %B70
+B94.endif.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B94.endif, label %B70.epil.preheader
 
-B70.epil.preheader:                               ; preds = %B94.endif.loopexit.unr-lcssa, %B70.lr.ph
-  %.1098284.epil.init = phi i64 [ 0, %B70.lr.ph ], [ %.116.7, %B94.endif.loopexit.unr-lcssa ]
+B70.epil.preheader:
+  %.1098284.epil.init = phi i64 [ 0, %B70.lr.ph ], [ %unroll_iter, %B94.endif.loopexit.unr-lcssa ]
+  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 504
   br label %B70.epil
 
-B70.epil:                                         ; preds = %B70.epil, %B70.epil.preheader
+B70.epil:
   %lsr.iv95 = phi i64 [ %lsr.iv.next96, %B70.epil ], [ %xtraiter, %B70.epil.preheader ]
-  %.1098284.epil = phi i64 [ %.1098284.epil.init, %B70.epil.preheader ], [ %.116.epil, %B70.epil ]
+  %.1098284.epil = phi i64 [ %.116.epil, %B70.epil ], [ %.1098284.epil.init, %B70.epil.preheader ]
   %.116.epil = add nuw nsw i64 %.1098284.epil, 1
-  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 504
   %.143.epil = load i64, ptr %sunkaddr115, align 8
   %.144.epil = inttoptr i64 %.143.epil to ptr
-  %33 = shl i64 %.1098284.epil, 3
-  %scevgep94 = getelementptr i8, ptr %.144.epil, i64 %33
+  %4 = shl i64 %.1098284.epil, 3
+  %scevgep94 = getelementptr i8, ptr %.144.epil, i64 %4
   store double 0.000000e+00, ptr %scevgep94, align 8
   %lsr.iv.next96 = add nsw i64 %lsr.iv95, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next96, 0
   br i1 %epil.iter.cmp.not, label %B94.endif, label %B70.epil, !llvm.loop !7
 
-B94.endif:                                        ; preds = %B70.epil, %B94.endif.loopexit.unr-lcssa, %B0.endif
+B94.endif:
   %.159 = getelementptr i8, ptr %arg.r, i64 184
   %.160 = load i64, ptr %.159, align 8
   %.24089.not = icmp slt i64 %.160, 1
   br i1 %.24089.not, label %common.ret, label %B136.lr.ph
 
-B136.lr.ph:                                       ; preds = %B94.endif
-  %34 = icmp slt i64 %.9.fr, -1
+B136.lr.ph:
   %.279 = getelementptr i8, ptr %arg.r, i64 304
   %.280.pre = load i64, ptr %.279, align 8
   %xtraiter.i = and i64 %.10, 7
-  br i1 %34, label %B136.us.preheader, label %B136.lr.ph.split
+  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 488
+  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 512
+  br i1 %.59, label %B136.us.preheader, label %B136.lr.ph.split
 
-B136.us.preheader:                                ; preds = %B136.lr.ph
-  %35 = inttoptr i64 %.13 to ptr
+B136.us.preheader:
+  %5 = inttoptr i64 %.13 to ptr
   br label %B136.us
 
-B136.us:                                          ; preds = %B136.us, %B136.us.preheader
+B136.us:
   %lsr.iv43 = phi i64 [ 0, %B136.us.preheader ], [ %lsr.iv.next44, %B136.us ]
   %lsr.iv = phi i64 [ %.160, %B136.us.preheader ], [ %lsr.iv.next, %B136.us ]
-  %.280.us = phi i64 [ %.336.us, %B136.us ], [ %.280.pre, %B136.us.preheader ]
-  %K.2.092.us = phi ptr [ %.343.us, %B136.us ], [ %35, %B136.us.preheader ]
+  %.280.us = phi i64 [ %.280.pre, %B136.us.preheader ], [ %.336.us, %B136.us ]
+  %K.2.092.us = phi ptr [ %5, %B136.us.preheader ], [ %.343.us, %B136.us ]
   %.281.us = inttoptr i64 %.280.us to ptr
   %scevgep46 = getelementptr i8, ptr %.281.us, i64 %lsr.iv43
   %.284.us = load i64, ptr %scevgep46, align 8
-  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 488
   %.287.us = load i64, ptr %sunkaddr116, align 8
   %.288.us = inttoptr i64 %.287.us to ptr
-  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 512
   %.291.us = load i64, ptr %sunkaddr117, align 8
   %.292.us = inttoptr i64 %.291.us to ptr
   %.294.us = inttoptr i64 %.284.us to ptr
   tail call void %.294.us(ptr %K.2.092.us, ptr %.288.us, ptr %.292.us)
-  %sunkaddr118 = getelementptr i8, ptr %arg.r, i64 304
-  %.336.us = load i64, ptr %sunkaddr118, align 8
+  %.336.us = load i64, ptr %.279, align 8
   %.337.us = inttoptr i64 %.336.us to ptr
   %scevgep = getelementptr i8, ptr %.337.us, i64 8
   %scevgep45 = getelementptr i8, ptr %scevgep, i64 %lsr.iv43
@@ -442,44 +323,42 @@ B136.us:                                          ; preds = %B136.us, %B136.us.p
   %exitcond96.not.us = icmp eq i64 %lsr.iv.next, 0
   br i1 %exitcond96.not.us, label %common.ret, label %B136.us
 
-B136.lr.ph.split:                                 ; preds = %B136.lr.ph
-  %36 = icmp slt i64 %.9.fr, 6
-  br i1 %36, label %B136.lr.ph.split.split.us, label %B136.preheader
+B136.lr.ph.split:
+  %6 = icmp slt i64 %.9.fr, 6
+  br i1 %6, label %B136.lr.ph.split.split.us, label %B136.preheader
 
-B136.preheader:                                   ; preds = %B136.lr.ph.split
-  %37 = inttoptr i64 %.13 to ptr
+B136.preheader:
+  %7 = inttoptr i64 %.13 to ptr
+  %8 = icmp eq i64 %xtraiter.i, 0
+  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 504
+  %9 = sub nsw i64 %.9.fr, %xtraiter.i
+  %10 = shl nuw nsw i64 %xtraiter.i, 3
   br label %B136
 
-B136.lr.ph.split.split.us:                        ; preds = %B136.lr.ph.split
-  %38 = icmp eq i64 %xtraiter.i, 0
-  br i1 %38, label %B136.us2.us.preheader, label %B136.us2.preheader
+B136.lr.ph.split.split.us:
+  %11 = icmp eq i64 %xtraiter.i, 0
+  %12 = inttoptr i64 %.13 to ptr
+  br i1 %11, label %B136.us2.us, label %B136.us2.preheader
 
-B136.us2.preheader:                               ; preds = %B136.lr.ph.split.split.us
-  %39 = inttoptr i64 %.13 to ptr
+B136.us2.preheader:
+  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 504
   br label %B136.us2
 
-B136.us2.us.preheader:                            ; preds = %B136.lr.ph.split.split.us
-  %40 = inttoptr i64 %.13 to ptr
-  br label %B136.us2.us
-
-B136.us2.us:                                      ; preds = %B136.us2.us, %B136.us2.us.preheader
-  %lsr.iv50 = phi i64 [ 0, %B136.us2.us.preheader ], [ %lsr.iv.next51, %B136.us2.us ]
-  %lsr.iv47 = phi i64 [ %.160, %B136.us2.us.preheader ], [ %lsr.iv.next48, %B136.us2.us ]
-  %.280.us3.us = phi i64 [ %.336.us21.us, %B136.us2.us ], [ %.280.pre, %B136.us2.us.preheader ]
-  %K.2.092.us4.us = phi ptr [ %.343.us25.us, %B136.us2.us ], [ %40, %B136.us2.us.preheader ]
+B136.us2.us:
+  %lsr.iv50 = phi i64 [ %lsr.iv.next51, %B136.us2.us ], [ 0, %B136.lr.ph.split.split.us ]
+  %lsr.iv47 = phi i64 [ %lsr.iv.next48, %B136.us2.us ], [ %.160, %B136.lr.ph.split.split.us ]
+  %.280.us3.us = phi i64 [ %.336.us21.us, %B136.us2.us ], [ %.280.pre, %B136.lr.ph.split.split.us ]
+  %K.2.092.us4.us = phi ptr [ %.343.us25.us, %B136.us2.us ], [ %12, %B136.lr.ph.split.split.us ]
   %.281.us6.us = inttoptr i64 %.280.us3.us to ptr
   %scevgep53 = getelementptr i8, ptr %.281.us6.us, i64 %lsr.iv50
   %.284.us9.us = load i64, ptr %scevgep53, align 8
-  %sunkaddr119 = getelementptr i8, ptr %arg.r, i64 488
-  %.287.us10.us = load i64, ptr %sunkaddr119, align 8
+  %.287.us10.us = load i64, ptr %sunkaddr116, align 8
   %.288.us11.us = inttoptr i64 %.287.us10.us to ptr
-  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 512
-  %.291.us12.us = load i64, ptr %sunkaddr120, align 8
+  %.291.us12.us = load i64, ptr %sunkaddr117, align 8
   %.292.us13.us = inttoptr i64 %.291.us12.us to ptr
   %.294.us14.us = inttoptr i64 %.284.us9.us to ptr
   tail call void %.294.us14.us(ptr %K.2.092.us4.us, ptr %.288.us11.us, ptr %.292.us13.us)
-  %sunkaddr121 = getelementptr i8, ptr %arg.r, i64 304
-  %.336.us21.us = load i64, ptr %sunkaddr121, align 8
+  %.336.us21.us = load i64, ptr %.279, align 8
   %.337.us22.us = inttoptr i64 %.336.us21.us to ptr
   %scevgep49 = getelementptr i8, ptr %.337.us22.us, i64 8
   %scevgep52 = getelementptr i8, ptr %scevgep49, i64 %lsr.iv50
@@ -490,134 +369,123 @@ B136.us2.us:                                      ; preds = %B136.us2.us, %B136.
   %exitcond96.not.us26.us = icmp eq i64 %lsr.iv.next48, 0
   br i1 %exitcond96.not.us26.us, label %common.ret, label %B136.us2.us
 
-B136.us2:                                         ; preds = %B36.prol.loopexit.i.loopexit.us, %B136.us2.preheader
+B136.us2:
   %.280.us3 = phi i64 [ %.336.us21, %B36.prol.loopexit.i.loopexit.us ], [ %.280.pre, %B136.us2.preheader ]
-  %K.2.092.us4 = phi ptr [ %.343.us25, %B36.prol.loopexit.i.loopexit.us ], [ %39, %B136.us2.preheader ]
+  %K.2.092.us4 = phi ptr [ %.343.us25, %B36.prol.loopexit.i.loopexit.us ], [ %12, %B136.us2.preheader ]
   %.2468890.us5 = phi i64 [ %.253.us20, %B36.prol.loopexit.i.loopexit.us ], [ 0, %B136.us2.preheader ]
   %.281.us6 = inttoptr i64 %.280.us3 to ptr
   %.282.us7 = shl nuw nsw i64 %.2468890.us5, 1
   %.283.us8 = getelementptr i64, ptr %.281.us6, i64 %.282.us7
   %.284.us9 = load i64, ptr %.283.us8, align 8
-  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 488
-  %.287.us10 = load i64, ptr %sunkaddr122, align 8
+  %.287.us10 = load i64, ptr %sunkaddr116, align 8
   %.288.us11 = inttoptr i64 %.287.us10 to ptr
-  %sunkaddr123 = getelementptr i8, ptr %arg.r, i64 512
-  %.291.us12 = load i64, ptr %sunkaddr123, align 8
+  %.291.us12 = load i64, ptr %sunkaddr117, align 8
   %.292.us13 = inttoptr i64 %.291.us12 to ptr
   %.294.us14 = inttoptr i64 %.284.us9 to ptr
   tail call void %.294.us14(ptr %K.2.092.us4, ptr %.288.us11, ptr %.292.us13)
-  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 504
   %.299.us15 = load i64, ptr %sunkaddr124, align 8
-  %.303.us17 = load i64, ptr %sunkaddr123, align 8
+  %.303.us17 = load i64, ptr %sunkaddr117, align 8
+  %13 = inttoptr i64 %.303.us17 to ptr
+  %14 = inttoptr i64 %.299.us15 to ptr
   br label %B36.prol.i.us
 
-B36.prol.i.us:                                    ; preds = %B36.prol.i.us, %B136.us2
+B36.prol.i.us:
   %.1043941.prol.i.us = phi i64 [ %.111.prol.i.us, %B36.prol.i.us ], [ 0, %B136.us2 ]
-  %41 = inttoptr i64 %.303.us17 to ptr
-  %42 = inttoptr i64 %.299.us15 to ptr
   %.111.prol.i.us = add nuw nsw i64 %.1043941.prol.i.us, 1
-  %43 = shl nuw nsw i64 %.1043941.prol.i.us, 3
-  %scevgep55 = getelementptr i8, ptr %42, i64 %43
+  %15 = shl nuw nsw i64 %.1043941.prol.i.us, 3
+  %scevgep55 = getelementptr i8, ptr %14, i64 %15
   %.138.prol.i.us = load double, ptr %scevgep55, align 8, !noalias !0
-  %44 = shl nuw nsw i64 %.1043941.prol.i.us, 3
-  %scevgep54 = getelementptr i8, ptr %41, i64 %44
+  %scevgep54 = getelementptr i8, ptr %13, i64 %15
   %.141.prol.i.us = load double, ptr %scevgep54, align 8, !noalias !0
   %.144.prol.i.us = fadd double %.138.prol.i.us, %.141.prol.i.us
   store double %.144.prol.i.us, ptr %scevgep55, align 8, !noalias !0
   %prol.iter.cmp.not.i.us = icmp eq i64 %xtraiter.i, %.111.prol.i.us
   br i1 %prol.iter.cmp.not.i.us, label %B36.prol.loopexit.i.loopexit.us, label %B36.prol.i.us, !llvm.loop !3
 
-B36.prol.loopexit.i.loopexit.us:                  ; preds = %B36.prol.i.us
+B36.prol.loopexit.i.loopexit.us:
   %.253.us20 = add nuw nsw i64 %.2468890.us5, 1
-  %sunkaddr125 = getelementptr i8, ptr %arg.r, i64 304
-  %.336.us21 = load i64, ptr %sunkaddr125, align 8
+  %.336.us21 = load i64, ptr %.279, align 8
   %.337.us22 = inttoptr i64 %.336.us21 to ptr
-  %45 = getelementptr i64, ptr %.337.us22, i64 %.282.us7
-  %.340.us23 = getelementptr i8, ptr %45, i64 8
+  %16 = getelementptr i64, ptr %.337.us22, i64 %.282.us7
+  %.340.us23 = getelementptr i8, ptr %16, i64 8
   %.341.us24 = load i64, ptr %.340.us23, align 8
   %.343.us25 = getelementptr double, ptr %K.2.092.us4, i64 %.341.us24
   %exitcond96.not.us26 = icmp eq i64 %.253.us20, %.160
   br i1 %exitcond96.not.us26, label %common.ret, label %B136.us2
 
-B136.endif.loopexit:                              ; preds = %B36.i
+B136.endif.loopexit:
   %.253 = add nuw nsw i64 %.2468890, 1
-  %sunkaddr126 = getelementptr i8, ptr %arg.r, i64 304
-  %.336 = load i64, ptr %sunkaddr126, align 8
+  %.336 = load i64, ptr %.279, align 8
   %.337 = inttoptr i64 %.336 to ptr
-  %46 = getelementptr i64, ptr %.337, i64 %.282
-  %.340 = getelementptr i8, ptr %46, i64 8
+  %17 = getelementptr i64, ptr %.337, i64 %.282
+  %.340 = getelementptr i8, ptr %17, i64 8
   %.341 = load i64, ptr %.340, align 8
   %.343 = getelementptr double, ptr %K.2.092, i64 %.341
   %exitcond96.not = icmp eq i64 %.253, %.160
   br i1 %exitcond96.not, label %common.ret, label %B136
 }
 
-define ptr @load_of(ptr readonly %.1) local_unnamed_addr {
+
+define ptr @load_of(ptr readonly %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca ptr, align 8
   store ptr null, ptr %.3, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #9
+  %.7 = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
   %.17 = load ptr, ptr %.3, align 8
-  %.19 = alloca i32, align 4
-  store i32 0, ptr %.19, align 4
-  %cond = icmp eq i32 %.7, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
-
-entry.if:                                         ; preds = %entry
-  %.15 = icmp sgt i32 %.7, 0
-  call void @numba_gil_ensure(ptr nonnull %.19)
-  br i1 %.15, label %entry.if.if, label %entry.if.endif
-
-common.ret:                                       ; preds = %.22, %entry
   ret ptr %.17
-
-.22:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.endif
-  %.70 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>")
-  call void @PyErr_WriteUnraisable(ptr %.70)
-  call void @Py_DecRef(ptr %.70)
-  call void @numba_gil_release(ptr nonnull %.19)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  unreachable
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.7, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.22
-  ]
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.22
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function")
-  br label %.22
 }
 
-define void @numba_gil_ensure(ptr) { call void @llvm.trap() unreachable }
 
-define ptr @PyUnicode_FromString(ptr) { call void @llvm.trap() unreachable }
+define void @numba_gil_ensure(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
-define void @PyErr_WriteUnraisable(ptr) { call void @llvm.trap() unreachable }
 
-define void @Py_DecRef(ptr) { call void @llvm.trap() unreachable }
+define noalias nonnull ptr @PyUnicode_FromString(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
-define void @numba_gil_release(ptr) { call void @llvm.trap() unreachable }
 
-define void @PyErr_Clear() { call void @llvm.trap() unreachable }
+define void @PyErr_WriteUnraisable(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
-define void @PyErr_SetString(ptr, ptr) { call void @llvm.trap() unreachable }
 
-define void @PyErr_SetNone(ptr) { call void @llvm.trap() unreachable }
+define void @Py_DecRef(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
-; Function Attrs: nocallback nofree nosync nounwind willreturn memory(inaccessiblemem: write)
-declare void @llvm.assume(i1) #0
+
+define void @numba_gil_release(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @PyErr_Clear() local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @PyErr_SetString(ptr readnone %0, ptr readnone %1) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @PyErr_SetNone(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
 define i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr readonly %arg.x, ptr %arg.dx) local_unnamed_addr {
 B0:
+  %.3.i = alloca ptr, align 8
   %.36 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.86 = alloca ptr, align 8
@@ -636,107 +504,103 @@ B0:
   switch i32 %.40, label %common.ret [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-B120:                                             ; preds = %B0.endif
-  %0 = inttoptr i64 %.21 to ptr
+B120:
   %.67 = getelementptr i8, ptr %arg.r, i64 88
   %.68 = load i64, ptr %.67, align 8
   %.70 = sub nsw i64 %.18, %.68
   %.72 = getelementptr double, ptr %arg.x, i64 %.70
   %.76 = add nsw i64 %.18, 3
   %.80 = sub i64 %.76, %.68
-  %.82 = getelementptr double, ptr %0, i64 %.80
+  %.82 = getelementptr double, ptr %.22, i64 %.80
   %.90 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.86, ptr nonnull %excinfo.2, ptr %.72, ptr %.82, i64 %.68)
   switch i32 %.90, label %common.ret [
     i32 -2, label %B258.endif
     i32 0, label %B258.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.63 = icmp slt i64 %.25, %.18
   br i1 %.63, label %B120, label %B258.endif
 
-common.ret:                                       ; preds = %B16.i, %B258.endif.endif.endif, %B258.endif.endif, %B120, %B0
+common.ret:
   %retptr.sink = phi ptr [ %excinfo, %B258.endif.endif ], [ %excinfo, %B120 ], [ %excinfo, %B0 ], [ %retptr, %B16.i ], [ %retptr, %B258.endif.endif.endif ]
   %common.ret.op = phi i32 [ %.190, %B258.endif.endif ], [ %.90, %B120 ], [ %.40, %B0 ], [ 0, %B16.i ], [ 0, %B258.endif.endif.endif ]
   store ptr null, ptr %retptr.sink, align 8
   ret i32 %common.ret.op
 
-B258.endif:                                       ; preds = %B0.endif, %B120, %B120
+B258.endif:
   %.115 = getelementptr i8, ptr %arg.r, i64 440
   %.117 = load double, ptr %.115, align 8
   %.12.i = fcmp olt double %.117, %arg.t
   %.13.i = select i1 %.12.i, double %.117, double %arg.t
   %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !10
+  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !9
   %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !10
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 488
-  %.13.i.i = load i64, ptr %sunkaddr, align 8, !noalias !10
+  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !9
+  %.13.i.i = load i64, ptr %.20, align 8, !noalias !9
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
-  store double %.13.i, ptr %.14.i.i, align 8, !noalias !10
-  %.18.i.i = load i64, ptr %sunkaddr, align 8, !noalias !10
+  store double %.13.i, ptr %.14.i.i, align 8, !noalias !9
+  %.18.i.i = load i64, ptr %.20, align 8, !noalias !9
   %.19.i.i = inttoptr i64 %.18.i.i to ptr
   %.20.i.i = getelementptr i8, ptr %.19.i.i, i64 8
-  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !10
-  %.23.i.i = load i64, ptr %sunkaddr, align 8, !noalias !10
+  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !9
+  %.23.i.i = load i64, ptr %.20, align 8, !noalias !9
   %.24.i.i = inttoptr i64 %.23.i.i to ptr
   %.25.i.i = getelementptr i8, ptr %.24.i.i, i64 16
-  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !10
+  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !9
   %.37.i = getelementptr i8, ptr %arg.r, i64 184
-  %.38.i = load i64, ptr %.37.i, align 8, !noalias !15
+  %.38.i = load i64, ptr %.37.i, align 8, !noalias !14
   %.39.i = icmp sgt i64 %.38.i, 0
   br i1 %.39.i, label %B58.i, label %B258.endif.endif
 
-B58.i:                                            ; preds = %B258.endif
-  %.42.i = tail call ptr @load_of(ptr nonnull %arg.r), !noalias !15
+B58.i:
+  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !14
   br label %B258.endif.endif
 
-B258.endif.endif:                                 ; preds = %B58.i, %B258.endif
-  %1 = inttoptr i64 %.21 to ptr
+B258.endif.endif:
   %.176 = getelementptr i8, ptr %arg.r, i64 504
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
-  %2 = getelementptr double, ptr %1, i64 %.18
-  %.182 = getelementptr i8, ptr %2, i64 24
+  %0 = getelementptr double, ptr %.22, i64 %.18
+  %.182 = getelementptr i8, ptr %0, i64 24
   %.184 = getelementptr i8, ptr %arg.r, i64 72
   %.185 = load i64, ptr %.184, align 8
   %.190 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.186, ptr nonnull %excinfo.5, ptr %.178, ptr %.182, i64 %.185)
   switch i32 %.190, label %common.ret [
     i32 -2, label %B258.endif.endif.endif
     i32 0, label %B258.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B258.endif.endif.endif:                           ; preds = %B258.endif.endif, %B258.endif.endif
-  %3 = inttoptr i64 %.21 to ptr
+B258.endif.endif.endif:
   %.212 = load i64, ptr %arg.r, align 8
   %.214 = getelementptr i8, ptr %arg.r, i64 256
   %.215 = load i64, ptr %.214, align 8
   %.216 = inttoptr i64 %.215 to ptr
   %.219 = inttoptr i64 %.212 to ptr
-  tail call void %.219(ptr %.216, ptr %3, ptr %arg.dx)
+  tail call void %.219(ptr %.216, ptr %.22, ptr %arg.dx)
   %.226 = getelementptr double, ptr %arg.dx, i64 %.18
   %.227 = load double, ptr %.226, align 8
   %.14.i = fcmp ugt double %.227, 0.000000e+00
   br i1 %.14.i, label %common.ret, label %B16.i
 
-B16.i:                                            ; preds = %B258.endif.endif.endif
+B16.i:
   %.17.i = fcmp oeq double %.227, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i, i64 5, i64 8
   %.30.i = getelementptr i8, ptr %arg.r, i64 424
-  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !16
-  store double 0x7FF8000000000000, ptr %arg.dx, align 8, !noalias !16
+  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !15
+  store double 0x7FF8000000000000, ptr %arg.dx, align 8, !noalias !15
   br label %common.ret
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(argmem: readwrite)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.x, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #1 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.x, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #0 {
 B0.endif:
   %.9240.not = icmp slt i64 %arg.size, 1
   br i1 %.9240.not, label %B62, label %iter.check
 
-iter.check:                                       ; preds = %B0.endif
+iter.check:
   %arg.out1 = ptrtoint ptr %arg.out to i64
   %arg.x2 = ptrtoint ptr %arg.x to i64
   %min.iters.check = icmp samesign ult i64 %arg.size, 4
@@ -745,67 +609,52 @@ iter.check:                                       ; preds = %B0.endif
   %or.cond = select i1 %min.iters.check, i1 true, i1 %diff.check
   br i1 %or.cond, label %B36.preheader, label %vector.main.loop.iter.check
 
-vector.main.loop.iter.check:                      ; preds = %iter.check
-  %const = bitcast i64 9223372036854775792 to i64
+vector.main.loop.iter.check:
   %min.iters.check3 = icmp samesign ult i64 %arg.size, 16
   br i1 %min.iters.check3, label %vec.epilog.ph, label %vector.ph
 
-vector.ph:                                        ; preds = %vector.main.loop.iter.check
-  %n.vec = and i64 %arg.size, %const
+vector.ph:
+  %n.vec = and i64 %arg.size, 9223372036854775792
   br label %vector.body
 
-vector.body:                                      ; preds = %vector.body, %vector.ph
+vector.body:
   %index = phi i64 [ 0, %vector.ph ], [ %index.next, %vector.body ]
-  %sunkaddr59 = mul i64 %index, 8
+  %sunkaddr59 = shl i64 %index, 3
   %sunkaddr60 = getelementptr i8, ptr %arg.x, i64 %sunkaddr59
   %wide.load = load <4 x double>, ptr %sunkaddr60, align 8
-  %sunkaddr61 = mul i64 %index, 8
-  %sunkaddr62 = getelementptr i8, ptr %arg.x, i64 %sunkaddr61
-  %sunkaddr63 = getelementptr i8, ptr %sunkaddr62, i64 32
+  %sunkaddr63 = getelementptr i8, ptr %sunkaddr60, i64 32
   %wide.load4 = load <4 x double>, ptr %sunkaddr63, align 8
-  %sunkaddr64 = mul i64 %index, 8
-  %sunkaddr65 = getelementptr i8, ptr %arg.x, i64 %sunkaddr64
-  %sunkaddr66 = getelementptr i8, ptr %sunkaddr65, i64 64
+  %sunkaddr66 = getelementptr i8, ptr %sunkaddr60, i64 64
   %wide.load5 = load <4 x double>, ptr %sunkaddr66, align 8
-  %sunkaddr = mul i64 %index, 8
-  %sunkaddr67 = getelementptr i8, ptr %arg.x, i64 %sunkaddr
-  %sunkaddr68 = getelementptr i8, ptr %sunkaddr67, i64 96
+  %sunkaddr68 = getelementptr i8, ptr %sunkaddr60, i64 96
   %wide.load6 = load <4 x double>, ptr %sunkaddr68, align 8
-  %sunkaddr69 = mul i64 %index, 8
-  %sunkaddr70 = getelementptr i8, ptr %arg.out, i64 %sunkaddr69
+  %sunkaddr70 = getelementptr i8, ptr %arg.out, i64 %sunkaddr59
   store <4 x double> %wide.load, ptr %sunkaddr70, align 8
-  %sunkaddr71 = mul i64 %index, 8
-  %sunkaddr72 = getelementptr i8, ptr %arg.out, i64 %sunkaddr71
-  %sunkaddr73 = getelementptr i8, ptr %sunkaddr72, i64 32
+  %sunkaddr73 = getelementptr i8, ptr %sunkaddr70, i64 32
   store <4 x double> %wide.load4, ptr %sunkaddr73, align 8
-  %sunkaddr74 = mul i64 %index, 8
-  %sunkaddr75 = getelementptr i8, ptr %arg.out, i64 %sunkaddr74
-  %sunkaddr76 = getelementptr i8, ptr %sunkaddr75, i64 64
+  %sunkaddr76 = getelementptr i8, ptr %sunkaddr70, i64 64
   store <4 x double> %wide.load5, ptr %sunkaddr76, align 8
-  %sunkaddr77 = mul i64 %index, 8
-  %sunkaddr78 = getelementptr i8, ptr %arg.out, i64 %sunkaddr77
-  %sunkaddr79 = getelementptr i8, ptr %sunkaddr78, i64 96
+  %sunkaddr79 = getelementptr i8, ptr %sunkaddr70, i64 96
   store <4 x double> %wide.load6, ptr %sunkaddr79, align 8
   %index.next = add nuw nsw i64 %index, 16
   %1 = icmp eq i64 %n.vec, %index.next
-  br i1 %1, label %middle.block, label %vector.body, !llvm.loop !19
+  br i1 %1, label %middle.block, label %vector.body, !llvm.loop !18
 
-middle.block:                                     ; preds = %vector.body
+middle.block:
   %cmp.n = icmp eq i64 %arg.size, %n.vec
   br i1 %cmp.n, label %B62, label %vec.epilog.iter.check
 
-vec.epilog.iter.check:                            ; preds = %middle.block
+vec.epilog.iter.check:
   %2 = and i64 %arg.size, 12
   %min.epilog.iters.check = icmp eq i64 %2, 0
-  br i1 %min.epilog.iters.check, label %B36.preheader, label %vec.epilog.ph, !prof !21
+  br i1 %min.epilog.iters.check, label %B36.preheader, label %vec.epilog.ph, !prof !20
 
-vec.epilog.ph:                                    ; preds = %vec.epilog.iter.check, %vector.main.loop.iter.check
+vec.epilog.ph:
   %vec.epilog.resume.val = phi i64 [ %n.vec, %vec.epilog.iter.check ], [ 0, %vector.main.loop.iter.check ]
-  %const_mat = add i64 %const, 12
-  %n.vec8 = and i64 %arg.size, %const_mat
+  %n.vec8 = and i64 %arg.size, 9223372036854775804
   br label %vec.epilog.vector.body
 
-vec.epilog.vector.body:                           ; preds = %vec.epilog.vector.body, %vec.epilog.ph
+vec.epilog.vector.body:
   %index9 = phi i64 [ %vec.epilog.resume.val, %vec.epilog.ph ], [ %index.next11, %vec.epilog.vector.body ]
   %3 = shl i64 %index9, 3
   %scevgep48 = getelementptr i8, ptr %arg.x, i64 %3
@@ -814,25 +663,22 @@ vec.epilog.vector.body:                           ; preds = %vec.epilog.vector.b
   store <4 x double> %wide.load10, ptr %scevgep47, align 8
   %index.next11 = add nuw i64 %index9, 4
   %4 = icmp eq i64 %n.vec8, %index.next11
-  br i1 %4, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !22
+  br i1 %4, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !21
 
-vec.epilog.middle.block:                          ; preds = %vec.epilog.vector.body
+vec.epilog.middle.block:
   %cmp.n12 = icmp eq i64 %arg.size, %n.vec8
   br i1 %cmp.n12, label %B62, label %B36.preheader
 
-B36.preheader:                                    ; preds = %vec.epilog.middle.block, %vec.epilog.iter.check, %iter.check
+B36.preheader:
   %.983941.ph = phi i64 [ 0, %iter.check ], [ %n.vec, %vec.epilog.iter.check ], [ %n.vec8, %vec.epilog.middle.block ]
   %5 = sub nsw i64 %arg.size, %.983941.ph
   %xtraiter = and i64 %5, 7
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
-  br i1 %lcmp.mod.not, label %B36.prol.loopexit, label %B36.prol.preheader
+  br i1 %lcmp.mod.not, label %B36.prol.loopexit, label %B36.prol
 
-B36.prol.preheader:                               ; preds = %B36.preheader
-  br label %B36.prol
-
-B36.prol:                                         ; preds = %B36.prol, %B36.prol.preheader
-  %lsr.iv = phi i64 [ %lsr.iv.next, %B36.prol ], [ %xtraiter, %B36.prol.preheader ]
-  %.983941.prol = phi i64 [ %.105.prol, %B36.prol ], [ %.983941.ph, %B36.prol.preheader ]
+B36.prol:
+  %lsr.iv = phi i64 [ %lsr.iv.next, %B36.prol ], [ %xtraiter, %B36.preheader ]
+  %.983941.prol = phi i64 [ %.105.prol, %B36.prol ], [ %.983941.ph, %B36.preheader ]
   %.105.prol = add nuw i64 %.983941.prol, 1
   %6 = shl i64 %.983941.prol, 3
   %scevgep46 = getelementptr i8, ptr %arg.x, i64 %6
@@ -841,189 +687,110 @@ B36.prol:                                         ; preds = %B36.prol, %B36.prol
   store double %.132.prol, ptr %scevgep45, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %prol.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %prol.iter.cmp.not, label %B36.prol.loopexit, label %B36.prol, !llvm.loop !23
+  br i1 %prol.iter.cmp.not, label %B36.prol.loopexit, label %B36.prol, !llvm.loop !22
 
-B36.prol.loopexit:                                ; preds = %B36.prol, %B36.preheader
+B36.prol.loopexit:
   %.983941.unr = phi i64 [ %.983941.ph, %B36.preheader ], [ %.105.prol, %B36.prol ]
   %7 = sub nsw i64 %.983941.ph, %arg.size
   %8 = icmp ugt i64 %7, -8
-  br i1 %8, label %B62, label %B36.preheader7
+  br i1 %8, label %B62, label %B36
 
-B36.preheader7:                                   ; preds = %B36.prol.loopexit
-  br label %B36
-
-B36:                                              ; preds = %B36, %B36.preheader7
-  %.983941 = phi i64 [ %.105.7, %B36 ], [ %.983941.unr, %B36.preheader7 ]
-  %sunkaddr80 = mul i64 %.983941, 8
+B36:
+  %.983941 = phi i64 [ %.105.7, %B36 ], [ %.983941.unr, %B36.prol.loopexit ]
+  %sunkaddr80 = shl i64 %.983941, 3
   %sunkaddr81 = getelementptr i8, ptr %arg.x, i64 %sunkaddr80
   %.132 = load double, ptr %sunkaddr81, align 8
-  %sunkaddr82 = mul i64 %.983941, 8
-  %sunkaddr83 = getelementptr i8, ptr %arg.out, i64 %sunkaddr82
+  %sunkaddr83 = getelementptr i8, ptr %arg.out, i64 %sunkaddr80
   store double %.132, ptr %sunkaddr83, align 8
-  %sunkaddr84 = mul i64 %.983941, 8
-  %sunkaddr85 = getelementptr i8, ptr %arg.x, i64 %sunkaddr84
-  %sunkaddr86 = getelementptr i8, ptr %sunkaddr85, i64 8
+  %sunkaddr86 = getelementptr i8, ptr %sunkaddr81, i64 8
   %.132.1 = load double, ptr %sunkaddr86, align 8
-  %sunkaddr87 = mul i64 %.983941, 8
-  %sunkaddr88 = getelementptr i8, ptr %arg.out, i64 %sunkaddr87
-  %sunkaddr89 = getelementptr i8, ptr %sunkaddr88, i64 8
+  %sunkaddr89 = getelementptr i8, ptr %sunkaddr83, i64 8
   store double %.132.1, ptr %sunkaddr89, align 8
-  %sunkaddr90 = mul i64 %.983941, 8
-  %sunkaddr91 = getelementptr i8, ptr %arg.x, i64 %sunkaddr90
-  %sunkaddr92 = getelementptr i8, ptr %sunkaddr91, i64 16
+  %sunkaddr92 = getelementptr i8, ptr %sunkaddr81, i64 16
   %.132.2 = load double, ptr %sunkaddr92, align 8
-  %sunkaddr93 = mul i64 %.983941, 8
-  %sunkaddr94 = getelementptr i8, ptr %arg.out, i64 %sunkaddr93
-  %sunkaddr95 = getelementptr i8, ptr %sunkaddr94, i64 16
+  %sunkaddr95 = getelementptr i8, ptr %sunkaddr83, i64 16
   store double %.132.2, ptr %sunkaddr95, align 8
-  %sunkaddr96 = mul i64 %.983941, 8
-  %sunkaddr97 = getelementptr i8, ptr %arg.x, i64 %sunkaddr96
-  %sunkaddr98 = getelementptr i8, ptr %sunkaddr97, i64 24
+  %sunkaddr98 = getelementptr i8, ptr %sunkaddr81, i64 24
   %.132.3 = load double, ptr %sunkaddr98, align 8
-  %sunkaddr99 = mul i64 %.983941, 8
-  %sunkaddr100 = getelementptr i8, ptr %arg.out, i64 %sunkaddr99
-  %sunkaddr101 = getelementptr i8, ptr %sunkaddr100, i64 24
+  %sunkaddr101 = getelementptr i8, ptr %sunkaddr83, i64 24
   store double %.132.3, ptr %sunkaddr101, align 8
-  %sunkaddr102 = mul i64 %.983941, 8
-  %sunkaddr103 = getelementptr i8, ptr %arg.x, i64 %sunkaddr102
-  %sunkaddr104 = getelementptr i8, ptr %sunkaddr103, i64 32
+  %sunkaddr104 = getelementptr i8, ptr %sunkaddr81, i64 32
   %.132.4 = load double, ptr %sunkaddr104, align 8
-  %sunkaddr105 = mul i64 %.983941, 8
-  %sunkaddr106 = getelementptr i8, ptr %arg.out, i64 %sunkaddr105
-  %sunkaddr107 = getelementptr i8, ptr %sunkaddr106, i64 32
+  %sunkaddr107 = getelementptr i8, ptr %sunkaddr83, i64 32
   store double %.132.4, ptr %sunkaddr107, align 8
-  %sunkaddr108 = mul i64 %.983941, 8
-  %sunkaddr109 = getelementptr i8, ptr %arg.x, i64 %sunkaddr108
-  %sunkaddr110 = getelementptr i8, ptr %sunkaddr109, i64 40
+  %sunkaddr110 = getelementptr i8, ptr %sunkaddr81, i64 40
   %.132.5 = load double, ptr %sunkaddr110, align 8
-  %sunkaddr111 = mul i64 %.983941, 8
-  %sunkaddr112 = getelementptr i8, ptr %arg.out, i64 %sunkaddr111
-  %sunkaddr113 = getelementptr i8, ptr %sunkaddr112, i64 40
+  %sunkaddr113 = getelementptr i8, ptr %sunkaddr83, i64 40
   store double %.132.5, ptr %sunkaddr113, align 8
-  %sunkaddr114 = mul i64 %.983941, 8
-  %sunkaddr115 = getelementptr i8, ptr %arg.x, i64 %sunkaddr114
-  %sunkaddr116 = getelementptr i8, ptr %sunkaddr115, i64 48
+  %sunkaddr116 = getelementptr i8, ptr %sunkaddr81, i64 48
   %.132.6 = load double, ptr %sunkaddr116, align 8
-  %sunkaddr117 = mul i64 %.983941, 8
-  %sunkaddr118 = getelementptr i8, ptr %arg.out, i64 %sunkaddr117
-  %sunkaddr119 = getelementptr i8, ptr %sunkaddr118, i64 48
+  %sunkaddr119 = getelementptr i8, ptr %sunkaddr83, i64 48
   store double %.132.6, ptr %sunkaddr119, align 8
   %.105.7 = add nuw nsw i64 %.983941, 8
-  %sunkaddr120 = mul i64 %.983941, 8
-  %sunkaddr121 = getelementptr i8, ptr %arg.x, i64 %sunkaddr120
-  %sunkaddr122 = getelementptr i8, ptr %sunkaddr121, i64 56
+  %sunkaddr122 = getelementptr i8, ptr %sunkaddr81, i64 56
   %.132.7 = load double, ptr %sunkaddr122, align 8
-  %sunkaddr123 = mul i64 %.983941, 8
-  %sunkaddr124 = getelementptr i8, ptr %arg.out, i64 %sunkaddr123
-  %sunkaddr125 = getelementptr i8, ptr %sunkaddr124, i64 56
+  %sunkaddr125 = getelementptr i8, ptr %sunkaddr83, i64 56
   store double %.132.7, ptr %sunkaddr125, align 8
   %exitcond.not.7 = icmp eq i64 %arg.size, %.105.7
-  br i1 %exitcond.not.7, label %B62, label %B36, !llvm.loop !24
+  br i1 %exitcond.not.7, label %B62, label %B36, !llvm.loop !23
 
-B62:                                              ; preds = %B36, %B36.prol.loopexit, %vec.epilog.middle.block, %middle.block, %B0.endif
+B62:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-define ptr @flow(ptr %.1, double %.2, ptr readonly %.3, ptr %.4) local_unnamed_addr {
+
+define ptr @flow(ptr %.1, double %.2, ptr readonly %.3, ptr %.4) local_unnamed_addr #0 {
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #9
-  %.11 = load ptr, ptr %excinfo, align 8
-  %.20 = load ptr, ptr %.6, align 8
-  %.22 = alloca i32, align 4
-  store i32 0, ptr %.22, align 4
+  %.10 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #0
   %cond = icmp eq i32 %.10, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.18 = icmp sgt i32 %.10, 0
-  call void @numba_gil_ensure(ptr nonnull %.22)
-  br i1 %.18, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.25, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.20, %.25 ], [ %.20, %entry ]
-  ret ptr %common.ret.op
-
-.25:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.73 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.1")
-  call void @PyErr_WriteUnraisable(ptr %.73)
-  call void @Py_DecRef(ptr %.73)
-  call void @numba_gil_release(ptr nonnull %.22)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.28 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.29 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 4
-  %.30 = icmp sgt i32 %.29, 0
-  %.33 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 0
-  %.35 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 1
-  br i1 %.30, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.10, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.25
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.36 = sext i32 %.35 to i64
-  %.37 = call ptr @PyBytes_FromStringAndSize(ptr %.33, i64 %.36)
-  %.38 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.39 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 2
-  %.41 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 3
-  %.43 = call ptr %.41(ptr %.39)
-  %.44 = icmp eq ptr %.43, null
-  br i1 %.44, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.57 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 2
-  %.58 = call ptr @numba_unpickle(ptr %.33, i32 %.35, ptr %.57)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.60 = phi ptr [ %.48, %entry.if.if.if.endif ], [ %.58, %entry.if.if.else ]
-  %.61.not = icmp eq ptr %.60, null
-  br i1 %.61.not, label %.25, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.48 = call ptr @numba_runtime_build_excinfo_struct(ptr %.37, ptr nonnull %.43)
-  call void @NRT_Free(ptr nonnull %.11)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.60)
-  br label %.25
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.25
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.2")
-  br label %.25
+common.ret:
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
 }
 
-define ptr @PyBytes_FromStringAndSize(ptr, i64) { call void @llvm.trap() unreachable }
 
-define ptr @numba_unpickle(ptr, i32, ptr) { call void @llvm.trap() unreachable }
+define noalias nonnull ptr @PyBytes_FromStringAndSize(ptr readnone %0, i64 %1) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
-define ptr @numba_runtime_build_excinfo_struct(ptr, ptr) { call void @llvm.trap() unreachable }
 
-define void @NRT_Free(ptr) { call void @llvm.trap() unreachable }
+define noalias nonnull ptr @numba_unpickle(ptr readnone %0, i32 %1, ptr readnone %2) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
-define void @numba_do_raise(ptr) { call void @llvm.trap() unreachable }
+
+define noalias nonnull ptr @numba_runtime_build_excinfo_struct(ptr readnone %0, ptr readnone %1) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @NRT_Free(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @numba_do_raise(ptr readnone %0) local_unnamed_addr #1 {
+  tail call void @llvm.trap()
+  unreachable
+}
 
 define i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr %arg.y, ptr %arg.N) local_unnamed_addr {
 B0:
+  %.3.i = alloca ptr, align 8
   %.53 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.148 = alloca ptr, align 8
@@ -1037,7 +804,7 @@ B0:
   %.26 = icmp sgt i64 %.25, 0
   br i1 %.26, label %B40, label %B194.endif
 
-B40:                                              ; preds = %B0
+B40:
   %0 = inttoptr i64 %.18 to ptr
   %.29 = getelementptr i8, ptr %arg.r, i64 40
   %.30 = load i64, ptr %.29, align 8
@@ -1059,45 +826,43 @@ B40:                                              ; preds = %B0
   switch i32 %.57, label %common.ret [
     i32 -2, label %B194.endif
     i32 0, label %B194.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B16.i, %B194.endif.endif.endif.endif, %B194.endif.endif.endif, %B194.endif.endif, %B40
+common.ret:
   %retptr.sink = phi ptr [ %excinfo, %B194.endif.endif.endif ], [ %excinfo, %B194.endif.endif ], [ %excinfo, %B40 ], [ %retptr, %B16.i ], [ %retptr, %B194.endif.endif.endif.endif ]
   %common.ret.op = phi i32 [ %.192, %B194.endif.endif.endif ], [ %.152, %B194.endif.endif ], [ %.57, %B40 ], [ 0, %B16.i ], [ 0, %B194.endif.endif.endif.endif ]
   store ptr null, ptr %retptr.sink, align 8
   ret i32 %common.ret.op
 
-B194.endif:                                       ; preds = %B40, %B40, %B0
+B194.endif:
   %.82 = getelementptr i8, ptr %arg.r, i64 440
   %.84 = load double, ptr %.82, align 8
   %.12.i = fcmp olt double %.84, %arg.t
   %.13.i = select i1 %.12.i, double %.84, double %arg.t
   %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !26
+  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !25
   %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !26
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 488
-  %.13.i.i = load i64, ptr %sunkaddr, align 8, !noalias !26
+  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !25
+  %.13.i.i = load i64, ptr %.17, align 8, !noalias !25
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
-  store double %.13.i, ptr %.14.i.i, align 8, !noalias !26
-  %.18.i.i = load i64, ptr %sunkaddr, align 8, !noalias !26
+  store double %.13.i, ptr %.14.i.i, align 8, !noalias !25
+  %.18.i.i = load i64, ptr %.17, align 8, !noalias !25
   %.19.i.i = inttoptr i64 %.18.i.i to ptr
   %.20.i.i = getelementptr i8, ptr %.19.i.i, i64 8
-  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !26
-  %.23.i.i = load i64, ptr %sunkaddr, align 8, !noalias !26
+  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !25
+  %.23.i.i = load i64, ptr %.17, align 8, !noalias !25
   %.24.i.i = inttoptr i64 %.23.i.i to ptr
   %.25.i.i = getelementptr i8, ptr %.24.i.i, i64 16
-  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !26
-  %sunkaddr1 = getelementptr i8, ptr %arg.r, i64 184
-  %.38.i = load i64, ptr %sunkaddr1, align 8, !noalias !31
+  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !25
+  %.38.i = load i64, ptr %.24, align 8, !noalias !30
   %.39.i = icmp sgt i64 %.38.i, 0
   br i1 %.39.i, label %B58.i, label %B194.endif.endif
 
-B58.i:                                            ; preds = %B194.endif
-  %.42.i = tail call ptr @load_of(ptr nonnull %arg.r), !noalias !31
+B58.i:
+  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !30
   br label %B194.endif.endif
 
-B194.endif.endif:                                 ; preds = %B58.i, %B194.endif
+B194.endif.endif:
   %1 = inttoptr i64 %.18 to ptr
   %.143 = getelementptr i8, ptr %1, i64 24
   %.145 = getelementptr i8, ptr %arg.r, i64 80
@@ -1106,34 +871,31 @@ B194.endif.endif:                                 ; preds = %B58.i, %B194.endif
   switch i32 %.152, label %common.ret [
     i32 -2, label %B194.endif.endif.endif
     i32 0, label %B194.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B194.endif.endif.endif:                           ; preds = %B194.endif.endif, %B194.endif.endif
-  %2 = inttoptr i64 %.18 to ptr
+B194.endif.endif.endif:
   %.176 = getelementptr i8, ptr %arg.r, i64 504
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
-  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 80
-  %.181 = load i64, ptr %sunkaddr2, align 8
-  %3 = getelementptr double, ptr %2, i64 %.181
-  %.184 = getelementptr i8, ptr %3, i64 24
+  %.181 = load i64, ptr %.145, align 8
+  %2 = getelementptr double, ptr %1, i64 %.181
+  %.184 = getelementptr i8, ptr %2, i64 24
   %.186 = getelementptr i8, ptr %arg.r, i64 72
   %.187 = load i64, ptr %.186, align 8
   %.192 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.188, ptr nonnull %excinfo.5, ptr %.178, ptr %.184, i64 %.187)
   switch i32 %.192, label %common.ret [
     i32 -2, label %B194.endif.endif.endif.endif
     i32 0, label %B194.endif.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B194.endif.endif.endif.endif:                     ; preds = %B194.endif.endif.endif, %B194.endif.endif.endif
-  %4 = inttoptr i64 %.18 to ptr
+B194.endif.endif.endif.endif:
   %.213 = getelementptr i8, ptr %arg.r, i64 48
   %.214 = load i64, ptr %.213, align 8
   %.216 = getelementptr i8, ptr %arg.r, i64 256
   %.217 = load i64, ptr %.216, align 8
   %.218 = inttoptr i64 %.217 to ptr
   %.221 = inttoptr i64 %.214 to ptr
-  tail call void %.221(ptr %.218, ptr %4, ptr %arg.N)
+  tail call void %.221(ptr %.218, ptr %1, ptr %arg.N)
   %.227 = getelementptr i8, ptr %arg.r, i64 120
   %.228 = load i64, ptr %.227, align 8
   %.230 = getelementptr double, ptr %arg.N, i64 %.228
@@ -1141,100 +903,32 @@ B194.endif.endif.endif.endif:                     ; preds = %B194.endif.endif.en
   %.14.i = fcmp ugt double %.231, 0.000000e+00
   br i1 %.14.i, label %common.ret, label %B16.i
 
-B16.i:                                            ; preds = %B194.endif.endif.endif.endif
+B16.i:
   %.17.i = fcmp oeq double %.231, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i, i64 5, i64 8
   %.30.i = getelementptr i8, ptr %arg.r, i64 424
-  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !32
-  store double 0x7FF8000000000000, ptr %arg.N, align 8, !noalias !32
+  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !31
+  store double 0x7FF8000000000000, ptr %arg.N, align 8, !noalias !31
   br label %common.ret
 }
 
-define ptr @remainder(ptr %.1, double %.2, ptr %.3, ptr %.4) local_unnamed_addr {
+
+define ptr @remainder(ptr %.1, double %.2, ptr %.3, ptr %.4) local_unnamed_addr #0 {
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #9
-  %.11 = load ptr, ptr %excinfo, align 8
-  %.20 = load ptr, ptr %.6, align 8
-  %.22 = alloca i32, align 4
-  store i32 0, ptr %.22, align 4
+  %.10 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #0
   %cond = icmp eq i32 %.10, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.18 = icmp sgt i32 %.10, 0
-  call void @numba_gil_ensure(ptr nonnull %.22)
-  br i1 %.18, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.25, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.20, %.25 ], [ %.20, %entry ]
-  ret ptr %common.ret.op
-
-.25:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.73 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.3")
-  call void @PyErr_WriteUnraisable(ptr %.73)
-  call void @Py_DecRef(ptr %.73)
-  call void @numba_gil_release(ptr nonnull %.22)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.28 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.29 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 4
-  %.30 = icmp sgt i32 %.29, 0
-  %.33 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 0
-  %.35 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 1
-  br i1 %.30, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.10, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.25
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.36 = sext i32 %.35 to i64
-  %.37 = call ptr @PyBytes_FromStringAndSize(ptr %.33, i64 %.36)
-  %.38 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.39 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 2
-  %.41 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 3
-  %.43 = call ptr %.41(ptr %.39)
-  %.44 = icmp eq ptr %.43, null
-  br i1 %.44, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.57 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 2
-  %.58 = call ptr @numba_unpickle(ptr %.33, i32 %.35, ptr %.57)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.60 = phi ptr [ %.48, %entry.if.if.if.endif ], [ %.58, %entry.if.if.else ]
-  %.61.not = icmp eq ptr %.60, null
-  br i1 %.61.not, label %.25, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.4")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.48 = call ptr @numba_runtime_build_excinfo_struct(ptr %.37, ptr nonnull %.43)
-  call void @NRT_Free(ptr nonnull %.11)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.60)
-  br label %.25
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.25
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.5")
-  br label %.25
+common.ret:
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
 }
 
 define i32 @_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r, double %arg.t, ptr readonly %arg.q, ptr %arg.out) local_unnamed_addr {
@@ -1266,117 +960,79 @@ B0:
   switch i32 %.40, label %common.ret [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B0.endif, %B0
+common.ret:
   %excinfo.sink = phi ptr [ %retptr, %B0.endif ], [ %excinfo, %B0 ]
   %common.ret.op = phi i32 [ 0, %B0.endif ], [ %.40, %B0 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.62 = getelementptr i8, ptr %arg.r, i64 24
   %.63 = load i64, ptr %.62, align 8
   %.64 = getelementptr i8, ptr %arg.r, i64 256
   %.65 = load i64, ptr %.64, align 8
   %.66 = inttoptr i64 %.65 to ptr
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 488
-  %.68 = load i64, ptr %sunkaddr, align 8
+  %.68 = load i64, ptr %.14, align 8
   %.69 = inttoptr i64 %.68 to ptr
   %.70 = inttoptr i64 %.63 to ptr
   tail call void %.70(ptr %.66, ptr %.69, ptr %arg.out)
   br label %common.ret
 }
 
-define ptr @watch(ptr readonly %.1, double %.2, ptr readonly %.3, ptr %.4) local_unnamed_addr {
+
+define noalias ptr @watch(ptr readonly %.1, double %.2, ptr readonly %.3, ptr %.4) local_unnamed_addr #0 {
 entry:
-  %.6 = alloca ptr, align 8
-  store ptr null, ptr %.6, align 8
-  %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #9
-  %.11 = load ptr, ptr %excinfo, align 8
-  %.20 = load ptr, ptr %.6, align 8
-  %.22 = alloca i32, align 4
-  store i32 0, ptr %.22, align 4
-  %cond = icmp eq i32 %.10, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  %.36.i = alloca ptr, align 8
+  %excinfo.1.i = alloca ptr, align 8
+  %.8.i = getelementptr i8, ptr %.1, i64 344
+  %.10.i = load double, ptr %.8.i, align 8, !noalias !34
+  %.11.i = getelementptr i8, ptr %.1, i64 432
+  %.13.i = load double, ptr %.11.i, align 8, !noalias !34
+  %.14.i = getelementptr i8, ptr %.1, i64 488
+  %.15.i = load i64, ptr %.14.i, align 8, !noalias !34
+  %.16.i = inttoptr i64 %.15.i to ptr
+  store double %.2, ptr %.16.i, align 8, !noalias !34
+  %.20.i = load i64, ptr %.14.i, align 8, !noalias !34
+  %.21.i = inttoptr i64 %.20.i to ptr
+  %.22.i = getelementptr i8, ptr %.21.i, i64 8
+  store double %.10.i, ptr %.22.i, align 8, !noalias !34
+  %.25.i = load i64, ptr %.14.i, align 8, !noalias !34
+  %.26.i = inttoptr i64 %.25.i to ptr
+  %.27.i = getelementptr i8, ptr %.26.i, i64 16
+  store double %.13.i, ptr %.27.i, align 8, !noalias !34
+  %.31.i = load i64, ptr %.14.i, align 8, !noalias !34
+  %.32.i = inttoptr i64 %.31.i to ptr
+  %.33.i = getelementptr i8, ptr %.32.i, i64 24
+  %.34.i = getelementptr i8, ptr %.1, i64 72
+  %.35.i = load i64, ptr %.34.i, align 8, !noalias !34
+  %.40.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i, ptr nonnull %excinfo.1.i, ptr readonly %.3, ptr %.33.i, i64 %.35.i), !noalias !34
+  switch i32 %.40.i, label %entry.if [
+    i32 -2, label %_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a.exit.thread
+    i32 0, label %_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a.exit.thread
+  ], !prof !8
 
-entry.if:                                         ; preds = %entry
-  %.18 = icmp sgt i32 %.10, 0
-  call void @numba_gil_ensure(ptr nonnull %.22)
-  br i1 %.18, label %entry.if.if, label %entry.if.endif
+_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a.exit.thread:
+  %.62.i = getelementptr i8, ptr %.1, i64 24
+  %.63.i = load i64, ptr %.62.i, align 8, !noalias !34
+  %.64.i = getelementptr i8, ptr %.1, i64 256
+  %.65.i = load i64, ptr %.64.i, align 8, !noalias !34
+  %.66.i = inttoptr i64 %.65.i to ptr
+  %.68.i = load i64, ptr %.14.i, align 8, !noalias !34
+  %.69.i = inttoptr i64 %.68.i to ptr
+  %.70.i = inttoptr i64 %.63.i to ptr
+  call void %.70.i(ptr %.66.i, ptr %.69.i, ptr %.4) #0, !noalias !34
+  ret ptr null
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.25, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.20, %.25 ], [ %.20, %entry ]
-  ret ptr %common.ret.op
-
-.25:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.73 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.6")
-  call void @PyErr_WriteUnraisable(ptr %.73)
-  call void @Py_DecRef(ptr %.73)
-  call void @numba_gil_release(ptr nonnull %.22)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.28 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.29 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 4
-  %.30 = icmp sgt i32 %.29, 0
-  %.33 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 0
-  %.35 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 1
-  br i1 %.30, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.10, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.25
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.36 = sext i32 %.35 to i64
-  %.37 = call ptr @PyBytes_FromStringAndSize(ptr %.33, i64 %.36)
-  %.38 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.39 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 2
-  %.41 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 3
-  %.43 = call ptr %.41(ptr %.39)
-  %.44 = icmp eq ptr %.43, null
-  br i1 %.44, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.57 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 2
-  %.58 = call ptr @numba_unpickle(ptr %.33, i32 %.35, ptr %.57)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.60 = phi ptr [ %.48, %entry.if.if.if.endif ], [ %.58, %entry.if.if.else ]
-  %.61.not = icmp eq ptr %.60, null
-  br i1 %.61.not, label %.25, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.7")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.48 = call ptr @numba_runtime_build_excinfo_struct(ptr %.37, ptr nonnull %.43)
-  call void @NRT_Free(ptr nonnull %.11)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.60)
-  br label %.25
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.25
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.8")
-  br label %.25
+entry.if:
+  call void @llvm.trap()
+  unreachable
 }
 
 define i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr readonly %arg.x, ptr readonly %arg.dx) local_unnamed_addr {
 B0:
+  %.3.i = alloca ptr, align 8
   %.53 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.90 = alloca ptr, align 8
@@ -1400,15 +1056,15 @@ B0:
   %.44 = icmp eq i64 %.43, 0
   br i1 %.44, label %B118, label %B250
 
-B118:                                             ; preds = %B0
+B118:
   %.50 = getelementptr i8, ptr %.30, i64 8
   %.57 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.53, ptr nonnull %excinfo.1, ptr %arg.x, ptr %.50, i64 %.18)
   switch i32 %.57, label %common.ret [
     i32 -2, label %B118.endif
     i32 0, label %B118.endif
-  ], !prof !9
+  ], !prof !8
 
-B250:                                             ; preds = %B0
+B250:
   %.123 = getelementptr i8, ptr %arg.r, i64 488
   %.124 = load i64, ptr %.123, align 8
   %.125 = inttoptr i64 %.124 to ptr
@@ -1417,76 +1073,74 @@ B250:                                             ; preds = %B0
   switch i32 %.133, label %common.ret [
     i32 -2, label %B250.endif
     i32 0, label %B250.endif
-  ], !prof !9
+  ], !prof !8
 
-B118.endif:                                       ; preds = %B118, %B118
+B118.endif:
   %0 = getelementptr double, ptr %.30, i64 %.18
   %.85 = getelementptr i8, ptr %0, i64 8
   %.94 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.90, ptr nonnull %excinfo.2, ptr %arg.dx, ptr %.85, i64 %.18)
   switch i32 %.94, label %common.ret [
     i32 -2, label %B652.endif
     i32 0, label %B652.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B652.endif, %B118.endif, %B250, %B118
+common.ret:
   %retptr.sink = phi ptr [ %retptr, %B652.endif ], [ %excinfo, %B118.endif ], [ %excinfo, %B118 ], [ %excinfo, %B250 ]
   %common.ret.op = phi i32 [ 0, %B652.endif ], [ %.94, %B118.endif ], [ %.57, %B118 ], [ %.133, %B250 ]
   store ptr null, ptr %retptr.sink, align 8
   ret i32 %common.ret.op
 
-B250.endif:                                       ; preds = %B250, %B250
+B250.endif:
   %.158 = getelementptr i8, ptr %arg.r, i64 192
   %.159 = load i64, ptr %.158, align 8
   %.160.not = icmp eq i64 %.159, 0
   br i1 %.160.not, label %B414.endif, label %B344.endif
 
-B344.endif:                                       ; preds = %B250.endif
+B344.endif:
   %.164 = getelementptr i8, ptr %arg.r, i64 440
   %.166 = load double, ptr %.164, align 8
   %.12.i = fcmp olt double %.166, %arg.t
   %.13.i = select i1 %.12.i, double %.166, double %arg.t
   %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !35
+  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !38
   %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !35
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 488
-  %.13.i.i = load i64, ptr %sunkaddr, align 8, !noalias !35
+  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !38
+  %.13.i.i = load i64, ptr %.123, align 8, !noalias !38
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
-  store double %.13.i, ptr %.14.i.i, align 8, !noalias !35
-  %.18.i.i = load i64, ptr %sunkaddr, align 8, !noalias !35
+  store double %.13.i, ptr %.14.i.i, align 8, !noalias !38
+  %.18.i.i = load i64, ptr %.123, align 8, !noalias !38
   %.19.i.i = inttoptr i64 %.18.i.i to ptr
   %.20.i.i = getelementptr i8, ptr %.19.i.i, i64 8
-  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !35
-  %.23.i.i = load i64, ptr %sunkaddr, align 8, !noalias !35
+  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !38
+  %.23.i.i = load i64, ptr %.123, align 8, !noalias !38
   %.24.i.i = inttoptr i64 %.23.i.i to ptr
   %.25.i.i = getelementptr i8, ptr %.24.i.i, i64 16
-  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !35
+  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !38
   %.37.i = getelementptr i8, ptr %arg.r, i64 184
-  %.38.i = load i64, ptr %.37.i, align 8, !noalias !40
+  %.38.i = load i64, ptr %.37.i, align 8, !noalias !43
   %.39.i = icmp sgt i64 %.38.i, 0
   br i1 %.39.i, label %B58.i, label %B414.endif
 
-B58.i:                                            ; preds = %B344.endif
-  %.42.i = tail call ptr @load_of(ptr nonnull %arg.r), !noalias !40
+B58.i:
+  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !43
   br label %B414.endif
 
-B414.endif:                                       ; preds = %B58.i, %B344.endif, %B250.endif
+B414.endif:
   %.6.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i = load double, ptr %.6.i, align 8, !noalias !41
+  %.8.i = load double, ptr %.6.i, align 8, !noalias !44
   %.9.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i = load double, ptr %.9.i, align 8, !noalias !41
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 488
-  %.13.i2 = load i64, ptr %sunkaddr4, align 8, !noalias !41
+  %.11.i = load double, ptr %.9.i, align 8, !noalias !44
+  %.13.i2 = load i64, ptr %.123, align 8, !noalias !44
   %.14.i = inttoptr i64 %.13.i2 to ptr
-  store double %arg.t, ptr %.14.i, align 8, !noalias !41
-  %.18.i = load i64, ptr %sunkaddr4, align 8, !noalias !41
+  store double %arg.t, ptr %.14.i, align 8, !noalias !44
+  %.18.i = load i64, ptr %.123, align 8, !noalias !44
   %.19.i = inttoptr i64 %.18.i to ptr
   %.20.i = getelementptr i8, ptr %.19.i, i64 8
-  store double %.8.i, ptr %.20.i, align 8, !noalias !41
-  %.23.i = load i64, ptr %sunkaddr4, align 8, !noalias !41
+  store double %.8.i, ptr %.20.i, align 8, !noalias !44
+  %.23.i = load i64, ptr %.123, align 8, !noalias !44
   %.24.i = inttoptr i64 %.23.i to ptr
   %.25.i = getelementptr i8, ptr %.24.i, i64 16
-  store double %.11.i, ptr %.25.i, align 8, !noalias !41
+  store double %.11.i, ptr %.25.i, align 8, !noalias !44
   %.254 = load double, ptr %.6.i, align 8
   %.256 = getelementptr i8, ptr %arg.r, i64 504
   %.257 = load i64, ptr %.256, align 8
@@ -1503,118 +1157,48 @@ B414.endif:                                       ; preds = %B58.i, %B344.endif,
   store double %.263, ptr %.278, align 8
   %.281 = getelementptr i8, ptr %.30, i64 24
   store double %.273, ptr %.281, align 8
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 64
-  %.285 = load i64, ptr %sunkaddr5, align 8
+  %.285 = load i64, ptr %.42, align 8
   %.287 = getelementptr i8, ptr %arg.r, i64 256
   %.288 = load i64, ptr %.287, align 8
   %.289 = inttoptr i64 %.288 to ptr
-  %.292 = load i64, ptr %sunkaddr4, align 8
+  %.292 = load i64, ptr %.123, align 8
   %.293 = inttoptr i64 %.292 to ptr
   %.295 = getelementptr i8, ptr %.30, i64 32
   %.298 = inttoptr i64 %.285 to ptr
   tail call void %.298(ptr %.289, ptr %.293, ptr %.295)
   br label %B652.endif
 
-B652.endif:                                       ; preds = %B414.endif, %B118.endif, %B118.endif
-  %sunkaddr6 = getelementptr i8, ptr %arg.r, i64 392
-  %.303 = load i64, ptr %sunkaddr6, align 8
+B652.endif:
+  %.303 = load i64, ptr %.24, align 8
   %.304 = add nsw i64 %.303, 1
   %.306 = getelementptr i8, ptr %arg.r, i64 400
   %.307 = load i64, ptr %.306, align 8
   %.308 = add nsw i64 %.307, -1
   %.13.i3 = tail call i64 @llvm.smin.i64(i64 %.308, i64 %.304)
-  store i64 %.13.i3, ptr %sunkaddr6, align 8
+  store i64 %.13.i3, ptr %.24, align 8
   br label %common.ret
 }
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
+
 declare i64 @llvm.smin.i64(i64, i64) #2
 
-define ptr @node(ptr %.1, double %.2, ptr readonly %.3, ptr readonly %.4) local_unnamed_addr {
+
+define ptr @node(ptr %.1, double %.2, ptr readonly %.3, ptr readonly %.4) local_unnamed_addr #0 {
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #9
-  %.11 = load ptr, ptr %excinfo, align 8
-  %.20 = load ptr, ptr %.6, align 8
-  %.22 = alloca i32, align 4
-  store i32 0, ptr %.22, align 4
+  %.10 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #0
   %cond = icmp eq i32 %.10, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.18 = icmp sgt i32 %.10, 0
-  call void @numba_gil_ensure(ptr nonnull %.22)
-  br i1 %.18, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.25, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.20, %.25 ], [ %.20, %entry ]
-  ret ptr %common.ret.op
-
-.25:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.73 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.9")
-  call void @PyErr_WriteUnraisable(ptr %.73)
-  call void @Py_DecRef(ptr %.73)
-  call void @numba_gil_release(ptr nonnull %.22)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.28 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.29 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 4
-  %.30 = icmp sgt i32 %.29, 0
-  %.33 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 0
-  %.35 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 1
-  br i1 %.30, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.10, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.25
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.36 = sext i32 %.35 to i64
-  %.37 = call ptr @PyBytes_FromStringAndSize(ptr %.33, i64 %.36)
-  %.38 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.39 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 2
-  %.41 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 3
-  %.43 = call ptr %.41(ptr %.39)
-  %.44 = icmp eq ptr %.43, null
-  br i1 %.44, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.57 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 2
-  %.58 = call ptr @numba_unpickle(ptr %.33, i32 %.35, ptr %.57)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.60 = phi ptr [ %.48, %entry.if.if.if.endif ], [ %.58, %entry.if.if.else ]
-  %.61.not = icmp eq ptr %.60, null
-  br i1 %.61.not, label %.25, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.10")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.48 = call ptr @numba_runtime_build_excinfo_struct(ptr %.37, ptr nonnull %.43)
-  call void @NRT_Free(ptr nonnull %.11)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.60)
-  br label %.25
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.25
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.11")
-  br label %.25
+common.ret:
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
 }
 
 define i32 @_ZN18biped_adrc_kernels3dueB3v13B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r) local_unnamed_addr {
@@ -1643,22 +1227,20 @@ B0:
   %.54 = fcmp ogt double %.53, 0.000000e+00
   br i1 %.54, label %B104.endif, label %B734
 
-B186:                                             ; preds = %B104.endif
+B186:
   %0 = inttoptr i64 %.15 to ptr
   %.134 = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.130, ptr nonnull %excinfo.3, ptr nonnull %arg.r, ptr %0)
   %cond = icmp eq i32 %.134, 0
-  br i1 %cond, label %B186.endif, label %B186.if.if, !prof !8
+  br i1 %cond, label %B186.endif, label %B186.if.if, !prof !24
 
-B422:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, %B186.endif.endif
-  %1 = inttoptr i64 %.19 to ptr
-  %2 = inttoptr i64 %.15 to ptr
-  %.287 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.283, ptr nonnull %excinfo.7, ptr nonnull %1, ptr %2, i64 %.12)
+B422:
+  %.287 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.283, ptr nonnull %excinfo.7, ptr nonnull %22, ptr %0, i64 %.12)
   switch i32 %.287, label %B422.if.if [
     i32 -2, label %B422.endif
     i32 0, label %B422.endif
-  ], !prof !9
+  ], !prof !8
 
-B668:                                             ; preds = %B654.preheader, %B422.endif.endif.endif.endif
+B668:
   %.503 = getelementptr i8, ptr %arg.r, i64 96
   %.504 = load i64, ptr %.503, align 8
   %.509 = icmp eq i64 %.504, %.373
@@ -1669,15 +1251,14 @@ B668:                                             ; preds = %B654.preheader, %B4
   store i64 %"$phi722.0.2.0", ptr %.533, align 8
   br label %B734
 
-B734:                                             ; preds = %B104.endif, %B668, %B0
+B734:
   %.545 = getelementptr i8, ptr %arg.r, i64 208
   %.547 = load double, ptr %.545, align 8
   %.548 = fcmp ogt double %.547, 0.000000e+00
   br i1 %.548, label %B756.endif, label %B996
 
-B824:                                             ; preds = %B756.endif
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 200
-  %.599 = load double, ptr %sunkaddr, align 8
+B824:
+  %.599 = load double, ptr %.51, align 8
   %.7.i = fsub double %.587, %.580
   %.11.i = fdiv double %.7.i, %.599
   %.12.i = fadd double %.11.i, 5.000000e-01
@@ -1689,161 +1270,142 @@ B824:                                             ; preds = %B756.endif
   %.18.i = fcmp une double %.587, %.17.i
   br i1 %.18.i, label %B996, label %B878.endif
 
-B920:                                             ; preds = %B920.preheader.new, %B920
+B920:
   %.725129131 = phi i64 [ 0, %B920.preheader.new ], [ %.732.7, %B920 ]
-  %sunkaddr111 = getelementptr i8, ptr %arg.r, i64 88
-  %.759 = load i64, ptr %sunkaddr111, align 8
-  %3 = mul i64 %.759, -16
-  %scevgep99 = getelementptr i8, ptr %scevgep54, i64 %3
-  %4 = shl i64 %.725129131, 3
-  %scevgep100 = getelementptr i8, ptr %scevgep99, i64 %4
+  %.759 = load i64, ptr %.638, align 8
+  %1 = mul i64 %.759, -16
+  %scevgep99 = getelementptr i8, ptr %scevgep54, i64 %1
+  %2 = shl i64 %.725129131, 3
+  %scevgep100 = getelementptr i8, ptr %scevgep99, i64 %2
   %.766 = load double, ptr %scevgep100, align 8
-  %5 = mul i64 %.759, -8
-  %scevgep97 = getelementptr i8, ptr %scevgep54, i64 %5
-  %6 = shl i64 %.725129131, 3
-  %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %6
+  %3 = mul i64 %.759, -8
+  %scevgep97 = getelementptr i8, ptr %scevgep54, i64 %3
+  %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %2
   store double %.766, ptr %scevgep98, align 8
-  %.759.1 = load i64, ptr %sunkaddr111, align 8
-  %7 = mul i64 %.759.1, -16
-  %scevgep91 = getelementptr i8, ptr %scevgep54, i64 %7
-  %8 = shl i64 %.725129131, 3
-  %scevgep92 = getelementptr i8, ptr %scevgep91, i64 %8
+  %.759.1 = load i64, ptr %.638, align 8
+  %4 = mul i64 %.759.1, -16
+  %scevgep91 = getelementptr i8, ptr %scevgep54, i64 %4
+  %scevgep92 = getelementptr i8, ptr %scevgep91, i64 %2
   %scevgep93 = getelementptr i8, ptr %scevgep92, i64 8
   %.766.1 = load double, ptr %scevgep93, align 8
-  %9 = mul i64 %.759.1, -8
-  %scevgep94 = getelementptr i8, ptr %scevgep54, i64 %9
-  %10 = shl i64 %.725129131, 3
-  %scevgep95 = getelementptr i8, ptr %scevgep94, i64 %10
+  %5 = mul i64 %.759.1, -8
+  %scevgep94 = getelementptr i8, ptr %scevgep54, i64 %5
+  %scevgep95 = getelementptr i8, ptr %scevgep94, i64 %2
   %scevgep96 = getelementptr i8, ptr %scevgep95, i64 8
   store double %.766.1, ptr %scevgep96, align 8
-  %.759.2 = load i64, ptr %sunkaddr111, align 8
-  %11 = mul i64 %.759.2, -16
-  %scevgep85 = getelementptr i8, ptr %scevgep54, i64 %11
-  %12 = shl i64 %.725129131, 3
-  %scevgep86 = getelementptr i8, ptr %scevgep85, i64 %12
+  %.759.2 = load i64, ptr %.638, align 8
+  %6 = mul i64 %.759.2, -16
+  %scevgep85 = getelementptr i8, ptr %scevgep54, i64 %6
+  %scevgep86 = getelementptr i8, ptr %scevgep85, i64 %2
   %scevgep87 = getelementptr i8, ptr %scevgep86, i64 16
   %.766.2 = load double, ptr %scevgep87, align 8
-  %13 = mul i64 %.759.2, -8
-  %scevgep88 = getelementptr i8, ptr %scevgep54, i64 %13
-  %14 = shl i64 %.725129131, 3
-  %scevgep89 = getelementptr i8, ptr %scevgep88, i64 %14
+  %7 = mul i64 %.759.2, -8
+  %scevgep88 = getelementptr i8, ptr %scevgep54, i64 %7
+  %scevgep89 = getelementptr i8, ptr %scevgep88, i64 %2
   %scevgep90 = getelementptr i8, ptr %scevgep89, i64 16
   store double %.766.2, ptr %scevgep90, align 8
-  %.759.3 = load i64, ptr %sunkaddr111, align 8
-  %15 = mul i64 %.759.3, -16
-  %scevgep79 = getelementptr i8, ptr %scevgep54, i64 %15
-  %16 = shl i64 %.725129131, 3
-  %scevgep80 = getelementptr i8, ptr %scevgep79, i64 %16
+  %.759.3 = load i64, ptr %.638, align 8
+  %8 = mul i64 %.759.3, -16
+  %scevgep79 = getelementptr i8, ptr %scevgep54, i64 %8
+  %scevgep80 = getelementptr i8, ptr %scevgep79, i64 %2
   %scevgep81 = getelementptr i8, ptr %scevgep80, i64 24
   %.766.3 = load double, ptr %scevgep81, align 8
-  %17 = mul i64 %.759.3, -8
-  %scevgep82 = getelementptr i8, ptr %scevgep54, i64 %17
-  %18 = shl i64 %.725129131, 3
-  %scevgep83 = getelementptr i8, ptr %scevgep82, i64 %18
+  %9 = mul i64 %.759.3, -8
+  %scevgep82 = getelementptr i8, ptr %scevgep54, i64 %9
+  %scevgep83 = getelementptr i8, ptr %scevgep82, i64 %2
   %scevgep84 = getelementptr i8, ptr %scevgep83, i64 24
   store double %.766.3, ptr %scevgep84, align 8
-  %.759.4 = load i64, ptr %sunkaddr111, align 8
-  %19 = mul i64 %.759.4, -16
-  %scevgep73 = getelementptr i8, ptr %scevgep54, i64 %19
-  %20 = shl i64 %.725129131, 3
-  %scevgep74 = getelementptr i8, ptr %scevgep73, i64 %20
+  %.759.4 = load i64, ptr %.638, align 8
+  %10 = mul i64 %.759.4, -16
+  %scevgep73 = getelementptr i8, ptr %scevgep54, i64 %10
+  %scevgep74 = getelementptr i8, ptr %scevgep73, i64 %2
   %scevgep75 = getelementptr i8, ptr %scevgep74, i64 32
   %.766.4 = load double, ptr %scevgep75, align 8
-  %21 = mul i64 %.759.4, -8
-  %scevgep76 = getelementptr i8, ptr %scevgep54, i64 %21
-  %22 = shl i64 %.725129131, 3
-  %scevgep77 = getelementptr i8, ptr %scevgep76, i64 %22
+  %11 = mul i64 %.759.4, -8
+  %scevgep76 = getelementptr i8, ptr %scevgep54, i64 %11
+  %scevgep77 = getelementptr i8, ptr %scevgep76, i64 %2
   %scevgep78 = getelementptr i8, ptr %scevgep77, i64 32
   store double %.766.4, ptr %scevgep78, align 8
-  %.759.5 = load i64, ptr %sunkaddr111, align 8
-  %23 = mul i64 %.759.5, -16
-  %scevgep67 = getelementptr i8, ptr %scevgep54, i64 %23
-  %24 = shl i64 %.725129131, 3
-  %scevgep68 = getelementptr i8, ptr %scevgep67, i64 %24
+  %.759.5 = load i64, ptr %.638, align 8
+  %12 = mul i64 %.759.5, -16
+  %scevgep67 = getelementptr i8, ptr %scevgep54, i64 %12
+  %scevgep68 = getelementptr i8, ptr %scevgep67, i64 %2
   %scevgep69 = getelementptr i8, ptr %scevgep68, i64 40
   %.766.5 = load double, ptr %scevgep69, align 8
-  %25 = mul i64 %.759.5, -8
-  %scevgep70 = getelementptr i8, ptr %scevgep54, i64 %25
-  %26 = shl i64 %.725129131, 3
-  %scevgep71 = getelementptr i8, ptr %scevgep70, i64 %26
+  %13 = mul i64 %.759.5, -8
+  %scevgep70 = getelementptr i8, ptr %scevgep54, i64 %13
+  %scevgep71 = getelementptr i8, ptr %scevgep70, i64 %2
   %scevgep72 = getelementptr i8, ptr %scevgep71, i64 40
   store double %.766.5, ptr %scevgep72, align 8
-  %.759.6 = load i64, ptr %sunkaddr111, align 8
-  %27 = mul i64 %.759.6, -16
-  %scevgep61 = getelementptr i8, ptr %scevgep54, i64 %27
-  %28 = shl i64 %.725129131, 3
-  %scevgep62 = getelementptr i8, ptr %scevgep61, i64 %28
+  %.759.6 = load i64, ptr %.638, align 8
+  %14 = mul i64 %.759.6, -16
+  %scevgep61 = getelementptr i8, ptr %scevgep54, i64 %14
+  %scevgep62 = getelementptr i8, ptr %scevgep61, i64 %2
   %scevgep63 = getelementptr i8, ptr %scevgep62, i64 48
   %.766.6 = load double, ptr %scevgep63, align 8
-  %29 = mul i64 %.759.6, -8
-  %scevgep64 = getelementptr i8, ptr %scevgep54, i64 %29
-  %30 = shl i64 %.725129131, 3
-  %scevgep65 = getelementptr i8, ptr %scevgep64, i64 %30
+  %15 = mul i64 %.759.6, -8
+  %scevgep64 = getelementptr i8, ptr %scevgep54, i64 %15
+  %scevgep65 = getelementptr i8, ptr %scevgep64, i64 %2
   %scevgep66 = getelementptr i8, ptr %scevgep65, i64 48
   store double %.766.6, ptr %scevgep66, align 8
   %.732.7 = add nuw nsw i64 %.725129131, 8
-  %.759.7 = load i64, ptr %sunkaddr111, align 8
-  %31 = mul i64 %.759.7, -16
-  %scevgep55 = getelementptr i8, ptr %scevgep54, i64 %31
-  %32 = shl i64 %.725129131, 3
-  %scevgep56 = getelementptr i8, ptr %scevgep55, i64 %32
+  %.759.7 = load i64, ptr %.638, align 8
+  %16 = mul i64 %.759.7, -16
+  %scevgep55 = getelementptr i8, ptr %scevgep54, i64 %16
+  %scevgep56 = getelementptr i8, ptr %scevgep55, i64 %2
   %scevgep57 = getelementptr i8, ptr %scevgep56, i64 56
   %.766.7 = load double, ptr %scevgep57, align 8
-  %33 = mul i64 %.759.7, -8
-  %scevgep58 = getelementptr i8, ptr %scevgep54, i64 %33
-  %34 = shl i64 %.725129131, 3
-  %scevgep59 = getelementptr i8, ptr %scevgep58, i64 %34
+  %17 = mul i64 %.759.7, -8
+  %scevgep58 = getelementptr i8, ptr %scevgep54, i64 %17
+  %scevgep59 = getelementptr i8, ptr %scevgep58, i64 %2
   %scevgep60 = getelementptr i8, ptr %scevgep59, i64 56
   store double %.766.7, ptr %scevgep60, align 8
   %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.732.7
   br i1 %niter.ncmp.7, label %B996.loopexit.unr-lcssa, label %B920
 
-common.ret:                                       ; preds = %B422.endif.endif.if.if, %B422.endif.if.if, %B422.if.if, %B392.endif, %B186.if.if, %B996
+common.ret:
   %common.ret.op = phi i32 [ 0, %B996 ], [ 0, %B392.endif ], [ %.287, %B422.if.if ], [ %.134, %B186.if.if ], [ %.352, %B422.endif.endif.if.if ], [ %.317, %B422.endif.if.if ]
   ret i32 %common.ret.op
 
-B996.loopexit.unr-lcssa:                          ; preds = %B920
+B996.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B996, label %B920.epil.preheader
 
-B920.epil.preheader:                              ; preds = %B920.preheader, %B996.loopexit.unr-lcssa
-  %.725129131.epil.init = phi i64 [ 0, %B920.preheader ], [ %.732.7, %B996.loopexit.unr-lcssa ]
-  %35 = inttoptr i64 %.15 to ptr
-  %36 = shl i64 %.725129131.epil.init, 3
-  %37 = shl i64 %.12, 3
-  %38 = add i64 %36, %37
-  %scevgep49 = getelementptr i8, ptr %35, i64 %38
+B920.epil.preheader:
+  %.725129131.epil.init = phi i64 [ %unroll_iter, %B996.loopexit.unr-lcssa ], [ 0, %B920.preheader ]
+  %18 = add i64 %.725129131.epil.init, %.12
+  %19 = shl i64 %18, 3
+  %scevgep49 = getelementptr i8, ptr %.pre, i64 %19
   br label %B920.epil
 
-B920.epil:                                        ; preds = %B920.epil, %B920.epil.preheader
+B920.epil:
   %lsr.iv53 = phi i64 [ %lsr.iv.next, %B920.epil ], [ %xtraiter, %B920.epil.preheader ]
   %lsr.iv = phi ptr [ %scevgep50, %B920.epil ], [ %scevgep49, %B920.epil.preheader ]
-  %sunkaddr112 = getelementptr i8, ptr %arg.r, i64 88
-  %.759.epil = load i64, ptr %sunkaddr112, align 8
-  %39 = mul i64 %.759.epil, -16
-  %scevgep52 = getelementptr i8, ptr %lsr.iv, i64 %39
+  %.759.epil = load i64, ptr %.638, align 8
+  %20 = mul i64 %.759.epil, -16
+  %scevgep52 = getelementptr i8, ptr %lsr.iv, i64 %20
   %.766.epil = load double, ptr %scevgep52, align 8
-  %40 = mul i64 %.759.epil, -8
-  %scevgep51 = getelementptr i8, ptr %lsr.iv, i64 %40
+  %21 = mul i64 %.759.epil, -8
+  %scevgep51 = getelementptr i8, ptr %lsr.iv, i64 %21
   store double %.766.epil, ptr %scevgep51, align 8
   %scevgep50 = getelementptr i8, ptr %lsr.iv, i64 8
   %lsr.iv.next = add nsw i64 %lsr.iv53, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B996, label %B920.epil, !llvm.loop !44
+  br i1 %epil.iter.cmp.not, label %B996, label %B920.epil, !llvm.loop !47
 
-B996:                                             ; preds = %B878.endif, %B756.endif, %B920.epil, %B996.loopexit.unr-lcssa, %B824, %B734
+B996:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B104.endif:                                       ; preds = %B0
+B104.endif:
   %.58 = getelementptr i8, ptr %arg.r, i64 328
   %.60 = load double, ptr %.58, align 8
   %.8.i = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !45
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !48
   %.10.i = icmp eq i64 %.9.i, 1
   %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 360, i64 216
   %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
-  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !45
+  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !48
   %.7.i10 = fsub double %.60, %"$phi52.0.2.0.i"
   %.11.i11 = fdiv double %.7.i10, %.53
   %.12.i12 = fadd double %.11.i11, 5.000000e-01
@@ -1855,9 +1417,9 @@ B104.endif:                                       ; preds = %B0
   %.18.i18 = fcmp une double %.60, %.17.i17
   br i1 %.18.i18, label %B734, label %B186
 
-B186.endif:                                       ; preds = %B186
-  %41 = inttoptr i64 %.19 to ptr
-  store double 0x7FF8000000000000, ptr %41, align 8
+B186.endif:
+  %22 = inttoptr i64 %.19 to ptr
+  store double 0x7FF8000000000000, ptr %22, align 8
   %.158 = getelementptr i8, ptr %arg.r, i64 8
   %.159 = load i64, ptr %.158, align 8
   %.161 = getelementptr i8, ptr %arg.r, i64 256
@@ -1867,235 +1429,222 @@ B186.endif:                                       ; preds = %B186
   %.166 = load i64, ptr %.165, align 8
   %.167 = inttoptr i64 %.166 to ptr
   %.169 = inttoptr i64 %.159 to ptr
-  tail call void %.169(ptr %.163, ptr %.167, ptr nonnull %41)
-  %.174 = getelementptr double, ptr %41, i64 %.12
+  tail call void %.169(ptr %.163, ptr %.167, ptr nonnull %22)
+  %.174 = getelementptr double, ptr %22, i64 %.12
   %.175 = load double, ptr %.174, align 8
   %.14.i20 = fcmp ugt double %.175, 0.000000e+00
   br i1 %.14.i20, label %B186.endif.endif, label %B16.i
 
-B16.i:                                            ; preds = %B186.endif
-  %42 = inttoptr i64 %.19 to ptr
+B16.i:
   %.17.i21 = fcmp oeq double %.175, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i21, i64 5, i64 8
   %.30.i = getelementptr i8, ptr %arg.r, i64 424
-  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !48
-  store double 0x7FF8000000000000, ptr %42, align 8, !noalias !48
+  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !51
+  store double 0x7FF8000000000000, ptr %22, align 8, !noalias !51
   br label %B186.endif.endif
 
-B186.if.if:                                       ; preds = %B186
+B186.if.if:
   %.142 = icmp sgt i32 %.134, 0
   %.135 = load ptr, ptr %excinfo.3, align 8
   %.143 = select i1 %.142, ptr %.135, ptr undef
   store ptr %.143, ptr %excinfo, align 8
   br label %common.ret
 
-B186.endif.endif:                                 ; preds = %B16.i, %B186.endif
+B186.endif.endif:
   %.9240.not.i = icmp slt i64 %.12, 1
   br i1 %.9240.not.i, label %B422, label %iter.check.i
 
-iter.check.i:                                     ; preds = %B186.endif.endif
+iter.check.i:
   %min.iters.check.i = icmp samesign ult i64 %.12, 4
   br i1 %min.iters.check.i, label %B40.i.preheader, label %vector.main.loop.iter.check.i
 
-vector.main.loop.iter.check.i:                    ; preds = %iter.check.i
-  %const109 = bitcast i64 9223372036854775792 to i64
+vector.main.loop.iter.check.i:
   %min.iters.check1.i = icmp samesign ult i64 %.12, 16
   br i1 %min.iters.check1.i, label %vec.epilog.ph.i, label %vector.ph.i
 
-vector.ph.i:                                      ; preds = %vector.main.loop.iter.check.i
-  %n.vec.i = and i64 %.12, %const109
+vector.ph.i:
+  %n.vec.i = and i64 %.12, 9223372036854775792
   br label %vector.body.i
 
-vector.body.i:                                    ; preds = %vector.body.i, %vector.ph.i
+vector.body.i:
   %index.i = phi i64 [ 0, %vector.ph.i ], [ %index.next.i, %vector.body.i ]
-  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %47, %vector.body.i ]
-  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %48, %vector.body.i ]
-  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %49, %vector.body.i ]
-  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %50, %vector.body.i ]
-  %sunkaddr113 = inttoptr i64 %.19 to ptr
-  %sunkaddr114 = mul i64 %index.i, 8
-  %sunkaddr115 = getelementptr i8, ptr %sunkaddr113, i64 %sunkaddr114
-  %wide.load.i = load <4 x double>, ptr %sunkaddr115, align 8, !noalias !51
-  %sunkaddr116 = inttoptr i64 %.19 to ptr
-  %sunkaddr117 = mul i64 %index.i, 8
-  %sunkaddr118 = getelementptr i8, ptr %sunkaddr116, i64 %sunkaddr117
-  %sunkaddr119 = getelementptr i8, ptr %sunkaddr118, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr119, align 8, !noalias !51
-  %sunkaddr120 = inttoptr i64 %.19 to ptr
-  %sunkaddr121 = mul i64 %index.i, 8
-  %sunkaddr122 = getelementptr i8, ptr %sunkaddr120, i64 %sunkaddr121
-  %sunkaddr123 = getelementptr i8, ptr %sunkaddr122, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr123, align 8, !noalias !51
-  %sunkaddr124 = inttoptr i64 %.19 to ptr
-  %sunkaddr125 = mul i64 %index.i, 8
-  %sunkaddr126 = getelementptr i8, ptr %sunkaddr124, i64 %sunkaddr125
-  %sunkaddr127 = getelementptr i8, ptr %sunkaddr126, i64 96
-  %wide.load7.i = load <4 x double>, ptr %sunkaddr127, align 8, !noalias !51
-  %43 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load.i, i32 504)
-  %44 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load5.i, i32 504)
-  %45 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load6.i, i32 504)
-  %46 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load7.i, i32 504)
-  %47 = and <4 x i1> %vec.phi.i, %43
-  %48 = and <4 x i1> %vec.phi2.i, %44
-  %49 = and <4 x i1> %vec.phi3.i, %45
-  %50 = and <4 x i1> %vec.phi4.i, %46
+  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %31, %vector.body.i ]
+  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %32, %vector.body.i ]
+  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %33, %vector.body.i ]
+  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %34, %vector.body.i ]
+  %sunkaddr114 = shl i64 %index.i, 3
+  %sunkaddr115 = getelementptr i8, ptr %22, i64 %sunkaddr114
+  %wide.load.i = load <4 x double>, ptr %sunkaddr115, align 8, !noalias !54
+  %sunkaddr119 = getelementptr i8, ptr %sunkaddr115, i64 32
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr119, align 8, !noalias !54
+  %sunkaddr123 = getelementptr i8, ptr %sunkaddr115, i64 64
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr123, align 8, !noalias !54
+  %sunkaddr127 = getelementptr i8, ptr %sunkaddr115, i64 96
+  %wide.load7.i = load <4 x double>, ptr %sunkaddr127, align 8, !noalias !54
+  %23 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
+  %24 = fcmp one <4 x double> %23, splat (double 0x7FF0000000000000)
+  %25 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
+  %26 = fcmp one <4 x double> %25, splat (double 0x7FF0000000000000)
+  %27 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load6.i)
+  %28 = fcmp one <4 x double> %27, splat (double 0x7FF0000000000000)
+  %29 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load7.i)
+  %30 = fcmp one <4 x double> %29, splat (double 0x7FF0000000000000)
+  %31 = and <4 x i1> %vec.phi.i, %24
+  %32 = and <4 x i1> %vec.phi2.i, %26
+  %33 = and <4 x i1> %vec.phi3.i, %28
+  %34 = and <4 x i1> %vec.phi4.i, %30
   %index.next.i = add nuw nsw i64 %index.i, 16
-  %51 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %51, label %middle.block.i, label %vector.body.i, !llvm.loop !54
+  %35 = icmp eq i64 %n.vec.i, %index.next.i
+  br i1 %35, label %middle.block.i, label %vector.body.i, !llvm.loop !57
 
-middle.block.i:                                   ; preds = %vector.body.i
-  %bin.rdx.i = and <4 x i1> %47, %48
-  %bin.rdx8.i = and <4 x i1> %49, %bin.rdx.i
-  %bin.rdx9.i = and <4 x i1> %50, %bin.rdx8.i
-  %52 = bitcast <4 x i1> %bin.rdx9.i to i4
-  %53 = icmp eq i4 %52, -1
+middle.block.i:
+  %bin.rdx.i = and <4 x i1> %31, %32
+  %bin.rdx8.i = and <4 x i1> %33, %bin.rdx.i
+  %bin.rdx9.i = and <4 x i1> %34, %bin.rdx8.i
+  %36 = bitcast <4 x i1> %bin.rdx9.i to i4
+  %37 = icmp eq i4 %36, -1
   %cmp.n.i = icmp eq i64 %.12, %n.vec.i
   br i1 %cmp.n.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %vec.epilog.iter.check.i
 
-vec.epilog.iter.check.i:                          ; preds = %middle.block.i
-  %54 = and i64 %.12, 12
-  %min.epilog.iters.check.i = icmp eq i64 %54, 0
-  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !21
+vec.epilog.iter.check.i:
+  %38 = and i64 %.12, 12
+  %min.epilog.iters.check.i = icmp eq i64 %38, 0
+  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !20
 
-vec.epilog.ph.i:                                  ; preds = %vec.epilog.iter.check.i, %vector.main.loop.iter.check.i
+vec.epilog.ph.i:
   %vec.epilog.resume.val.i = phi i64 [ %n.vec.i, %vec.epilog.iter.check.i ], [ 0, %vector.main.loop.iter.check.i ]
-  %bc.merge.rdx.i = phi i1 [ %53, %vec.epilog.iter.check.i ], [ true, %vector.main.loop.iter.check.i ]
-  %const_mat110 = add i64 %const109, 12
-  %n.vec11.i = and i64 %.12, %const_mat110
-  %55 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
+  %bc.merge.rdx.i = phi i1 [ %37, %vec.epilog.iter.check.i ], [ true, %vector.main.loop.iter.check.i ]
+  %n.vec11.i = and i64 %.12, 9223372036854775804
+  %39 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
   br label %vec.epilog.vector.body.i
 
-vec.epilog.vector.body.i:                         ; preds = %vec.epilog.vector.body.i, %vec.epilog.ph.i
+vec.epilog.vector.body.i:
   %index12.i = phi i64 [ %vec.epilog.resume.val.i, %vec.epilog.ph.i ], [ %index.next15.i, %vec.epilog.vector.body.i ]
-  %vec.phi13.i = phi <4 x i1> [ %55, %vec.epilog.ph.i ], [ %59, %vec.epilog.vector.body.i ]
-  %56 = inttoptr i64 %.19 to ptr
-  %57 = shl i64 %index12.i, 3
-  %scevgep28.i = getelementptr i8, ptr %56, i64 %57
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !51
-  %58 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load14.i, i32 504)
-  %59 = and <4 x i1> %vec.phi13.i, %58
+  %vec.phi13.i = phi <4 x i1> [ %39, %vec.epilog.ph.i ], [ %43, %vec.epilog.vector.body.i ]
+  %40 = shl i64 %index12.i, 3
+  %scevgep28.i = getelementptr i8, ptr %22, i64 %40
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !54
+  %41 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
+  %42 = fcmp one <4 x double> %41, splat (double 0x7FF0000000000000)
+  %43 = and <4 x i1> %vec.phi13.i, %42
   %index.next15.i = add nuw i64 %index12.i, 4
-  %60 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %60, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !55
+  %44 = icmp eq i64 %n.vec11.i, %index.next15.i
+  br i1 %44, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !58
 
-vec.epilog.middle.block.i:                        ; preds = %vec.epilog.vector.body.i
-  %61 = bitcast <4 x i1> %59 to i4
-  %62 = icmp eq i4 %61, -1
+vec.epilog.middle.block.i:
+  %45 = bitcast <4 x i1> %43 to i4
+  %46 = icmp eq i4 %45, -1
   %cmp.n16.i = icmp eq i64 %.12, %n.vec11.i
   br i1 %cmp.n16.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i.preheader
 
-B40.i.preheader:                                  ; preds = %vec.epilog.middle.block.i, %vec.epilog.iter.check.i, %iter.check.i
-  %good.2.043.i.ph = phi i1 [ %62, %vec.epilog.middle.block.i ], [ %53, %vec.epilog.iter.check.i ], [ true, %iter.check.i ]
-  %.983941.i.ph = phi i64 [ %n.vec11.i, %vec.epilog.middle.block.i ], [ %n.vec.i, %vec.epilog.iter.check.i ], [ 0, %iter.check.i ]
+B40.i.preheader:
+  %good.2.043.i.ph = phi i1 [ true, %iter.check.i ], [ %37, %vec.epilog.iter.check.i ], [ %46, %vec.epilog.middle.block.i ]
+  %.983941.i.ph = phi i64 [ 0, %iter.check.i ], [ %n.vec.i, %vec.epilog.iter.check.i ], [ %n.vec11.i, %vec.epilog.middle.block.i ]
   br label %B40.i
 
-B40.i:                                            ; preds = %B40.i, %B40.i.preheader
+B40.i:
   %good.2.043.i = phi i1 [ %.136.i, %B40.i ], [ %good.2.043.i.ph, %B40.i.preheader ]
   %.983941.i = phi i64 [ %.105.i, %B40.i ], [ %.983941.i.ph, %B40.i.preheader ]
-  %63 = inttoptr i64 %.19 to ptr
   %.105.i = add nuw nsw i64 %.983941.i, 1
-  %64 = shl i64 %.983941.i, 3
-  %scevgep.i = getelementptr i8, ptr %63, i64 %64
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !51
-  %65 = call i1 @llvm.is.fpclass.f64(double %.132.i, i32 504)
-  %.136.i = and i1 %good.2.043.i, %65
+  %47 = shl i64 %.983941.i, 3
+  %scevgep.i = getelementptr i8, ptr %22, i64 %47
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !54
+  %48 = call double @llvm.fabs.f64(double %.132.i)
+  %49 = fcmp one double %48, 0x7FF0000000000000
+  %.136.i = and i1 %good.2.043.i, %49
   %exitcond.not.i = icmp eq i64 %.12, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !56
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !59
 
-_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit: ; preds = %B40.i, %vec.epilog.middle.block.i, %middle.block.i
-  %.136.lcssa.i = phi i1 [ %62, %vec.epilog.middle.block.i ], [ %53, %middle.block.i ], [ %.136.i, %B40.i ]
+_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
+  %.136.lcssa.i = phi i1 [ %46, %vec.epilog.middle.block.i ], [ %37, %middle.block.i ], [ %.136.i, %B40.i ]
   br i1 %.136.lcssa.i, label %B422, label %B392.endif
 
-B392.endif:                                       ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit
+B392.endif:
   %.8.i1 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !57
+  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !60
   %.10.i3 = icmp eq i64 %.9.i2, 0
   %spec.select.i = select i1 %.10.i3, i64 4, i64 %.9.i2
   store i64 %spec.select.i, ptr %retptr, align 8
   br label %common.ret
 
-B422.endif:                                       ; preds = %B422, %B422
-  %66 = inttoptr i64 %.23 to ptr
-  %67 = inttoptr i64 %.15 to ptr
-  %.310 = getelementptr double, ptr %67, i64 %.9
-  %.317 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.313, ptr nonnull %excinfo.8, ptr %.310, ptr %66, i64 %.9)
+B422.endif:
+  %50 = inttoptr i64 %.23 to ptr
+  %.310 = getelementptr double, ptr %0, i64 %.9
+  %.317 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.313, ptr nonnull %excinfo.8, ptr %.310, ptr %50, i64 %.9)
   switch i32 %.317, label %B422.endif.if.if [
     i32 -2, label %B422.endif.endif
     i32 0, label %B422.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B422.if.if:                                       ; preds = %B422
+B422.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B422.endif.endif:                                 ; preds = %B422.endif, %B422.endif
-  %68 = inttoptr i64 %.23 to ptr
+B422.endif.endif:
   %.341 = getelementptr i8, ptr %.174, i64 8
-  %.346 = getelementptr double, ptr %68, i64 %.9
+  %.346 = getelementptr double, ptr %50, i64 %.9
   %.352 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.348, ptr nonnull %excinfo.9, ptr %.341, ptr %.346, i64 %.9)
   switch i32 %.352, label %B422.endif.endif.if.if [
     i32 -2, label %B422.endif.endif.endif.endif
     i32 0, label %B422.endif.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B422.endif.if.if:                                 ; preds = %B422.endif
+B422.endif.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B422.endif.endif.if.if:                           ; preds = %B422.endif.endif
+B422.endif.endif.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B422.endif.endif.endif.endif:                     ; preds = %B422.endif.endif, %B422.endif.endif
+B422.endif.endif.endif.endif:
   %.373 = shl nsw i64 %.9, 1
   %.411 = sub i64 %.12, %.373
   %.454124.not = icmp slt i64 %.411, 1
   br i1 %.454124.not, label %B668, label %B654.preheader
 
-B654.preheader:                                   ; preds = %B422.endif.endif.endif.endif
-  %69 = inttoptr i64 %.23 to ptr
-  %70 = shl i64 %.9, 4
-  %scevgep = getelementptr i8, ptr %69, i64 %70
-  %71 = shl nuw i64 %.411, 3
-  tail call void @llvm.memset.p0.i64(ptr align 8 %scevgep, i8 0, i64 %71, i1 false)
+B654.preheader:
+  %51 = shl i64 %.9, 4
+  %scevgep = getelementptr i8, ptr %50, i64 %51
+  %52 = shl nuw i64 %.411, 3
+  tail call void @llvm.memset.p0.i64(ptr align 8 %scevgep, i8 0, i64 %52, i1 false)
   br label %B668
 
-B756.endif:                                       ; preds = %B734
+B756.endif:
   %.8.i4 = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i5 = load i64, ptr %.8.i4, align 8, !noalias !60
+  %.9.i5 = load i64, ptr %.8.i4, align 8, !noalias !63
   %.10.i6 = icmp eq i64 %.9.i5, 1
   %"$phi52.0.2.0.in.v.i7" = select i1 %.10.i6, i64 360, i64 216
   %"$phi52.0.2.0.in.i8" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i7"
-  %"$phi52.0.2.0.i9" = load double, ptr %"$phi52.0.2.0.in.i8", align 8, !noalias !60
+  %"$phi52.0.2.0.i9" = load double, ptr %"$phi52.0.2.0.in.i8", align 8, !noalias !63
   %.580 = fadd double %.547, %"$phi52.0.2.0.i9"
   %.585 = getelementptr i8, ptr %arg.r, i64 328
   %.587 = load double, ptr %.585, align 8
   %.589 = fcmp ult double %.587, %.580
   br i1 %.589, label %B996, label %B824
 
-B878.endif:                                       ; preds = %B824
+B878.endif:
   %.638 = getelementptr i8, ptr %arg.r, i64 88
   %.639 = load i64, ptr %.638, align 8
   %.719130.not = icmp slt i64 %.639, 1
   br i1 %.719130.not, label %B996, label %B920.preheader
 
-B920.preheader:                                   ; preds = %B878.endif
+B920.preheader:
   %xtraiter = and i64 %.639, 7
-  %72 = icmp ult i64 %.639, 8
-  br i1 %72, label %B920.epil.preheader, label %B920.preheader.new
+  %53 = icmp samesign ult i64 %.639, 8
+  %.pre = inttoptr i64 %.15 to ptr
+  br i1 %53, label %B920.epil.preheader, label %B920.preheader.new
 
-B920.preheader.new:                               ; preds = %B920.preheader
-  %73 = inttoptr i64 %.15 to ptr
-  %const = bitcast i64 9223372036854775792 to i64
-  %const_mat = add i64 %const, 8
-  %unroll_iter = and i64 %.639, %const_mat
-  %74 = shl i64 %.12, 3
-  %scevgep54 = getelementptr i8, ptr %73, i64 %74
+B920.preheader.new:
+  %unroll_iter = and i64 %.639, 9223372036854775800
+  %54 = shl i64 %.12, 3
+  %scevgep54 = getelementptr i8, ptr %.pre, i64 %54
   br label %B920
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, ptr readonly %arg.x) local_unnamed_addr {
 B0:
+  %.3.i = alloca ptr, align 8
   %.13 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.112 = alloca ptr, align 8
@@ -2110,15 +1659,15 @@ B0:
   switch i32 %.17, label %common.ret [
     i32 -2, label %B0.endif.endif
     i32 0, label %B0.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B0.endif.endif.endif.if.if, %B0.endif.endif.endif, %B0.endif.endif.endif, %B0
+common.ret:
   %excinfo.sink = phi ptr [ %excinfo, %B0.endif.endif.endif.if.if ], [ %excinfo, %B0 ], [ %retptr, %B0.endif.endif.endif ], [ %retptr, %B0.endif.endif.endif ]
   %common.ret.op = phi i32 [ %.116, %B0.endif.endif.endif.if.if ], [ %.17, %B0 ], [ 0, %B0.endif.endif.endif ], [ 0, %B0.endif.endif.endif ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B0.endif.endif:                                   ; preds = %B0, %B0
+B0.endif.endif:
   %.40 = getelementptr i8, ptr %arg.r, i64 328
   %.42 = load double, ptr %.40, align 8
   %.43 = getelementptr i8, ptr %arg.r, i64 440
@@ -2126,39 +1675,36 @@ B0.endif.endif:                                   ; preds = %B0, %B0
   %.12.i = fcmp olt double %.45, %.42
   %.13.i = select i1 %.12.i, double %.45, double %.42
   %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !63
+  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !66
   %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !63
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 488
-  %.13.i.i = load i64, ptr %sunkaddr, align 8, !noalias !63
+  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !66
+  %.13.i.i = load i64, ptr %.7, align 8, !noalias !66
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
-  store double %.13.i, ptr %.14.i.i, align 8, !noalias !63
-  %.18.i.i = load i64, ptr %sunkaddr, align 8, !noalias !63
+  store double %.13.i, ptr %.14.i.i, align 8, !noalias !66
+  %.18.i.i = load i64, ptr %.7, align 8, !noalias !66
   %.19.i.i = inttoptr i64 %.18.i.i to ptr
   %.20.i.i = getelementptr i8, ptr %.19.i.i, i64 8
-  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !63
-  %.23.i.i = load i64, ptr %sunkaddr, align 8, !noalias !63
+  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !66
+  %.23.i.i = load i64, ptr %.7, align 8, !noalias !66
   %.24.i.i = inttoptr i64 %.23.i.i to ptr
   %.25.i.i = getelementptr i8, ptr %.24.i.i, i64 16
-  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !63
+  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !66
   %.37.i = getelementptr i8, ptr %arg.r, i64 184
-  %.38.i = load i64, ptr %.37.i, align 8, !noalias !68
+  %.38.i = load i64, ptr %.37.i, align 8, !noalias !71
   %.39.i = icmp sgt i64 %.38.i, 0
   br i1 %.39.i, label %B58.i, label %B0.endif.endif.endif
 
-B58.i:                                            ; preds = %B0.endif.endif
-  %.42.i = tail call ptr @load_of(ptr nonnull %arg.r), !noalias !68
+B58.i:
+  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !71
   br label %B0.endif.endif.endif
 
-B0.endif.endif.endif:                             ; preds = %B58.i, %B0.endif.endif
+B0.endif.endif.endif:
   %.99 = getelementptr i8, ptr %arg.r, i64 504
   %.100 = load i64, ptr %.99, align 8
   %.101 = inttoptr i64 %.100 to ptr
-  %sunkaddr1 = getelementptr i8, ptr %arg.r, i64 488
-  %.103 = load i64, ptr %sunkaddr1, align 8
+  %.103 = load i64, ptr %.7, align 8
   %.104 = inttoptr i64 %.103 to ptr
-  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 80
-  %.106 = load i64, ptr %sunkaddr2, align 8
+  %.106 = load i64, ptr %.11, align 8
   %0 = getelementptr double, ptr %.104, i64 %.106
   %.108 = getelementptr i8, ptr %0, i64 24
   %.109 = getelementptr i8, ptr %arg.r, i64 72
@@ -2168,113 +1714,42 @@ B0.endif.endif.endif:                             ; preds = %B58.i, %B0.endif.en
   switch i32 %.116, label %B0.endif.endif.endif.if.if [
     i32 -2, label %common.ret
     i32 0, label %common.ret
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.if.if:                       ; preds = %B0.endif.endif.endif
+B0.endif.endif.endif.if.if:
   br label %common.ret
 }
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
+
 declare double @llvm.floor.f64(double) #2
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
-declare <4 x i1> @llvm.is.fpclass.v4f64(<4 x double>, i32 immarg) #2
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
-declare i1 @llvm.is.fpclass.f64(double, i32 immarg) #2
-
-; Function Attrs: nocallback nofree nounwind willreturn memory(argmem: write)
 declare void @llvm.memset.p0.i64(ptr writeonly, i8, i64, i1 immarg) #3
 
-define i64 @due(ptr %.1) local_unnamed_addr {
+
+define i64 @due(ptr %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels3dueB3v13B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #9
-  %.8 = load ptr, ptr %excinfo, align 8
-  %.17 = load i64, ptr %.3, align 8
-  %.19 = alloca i32, align 4
-  store i32 0, ptr %.19, align 4
+  %.7 = call i32 @_ZN18biped_adrc_kernels3dueB3v13B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
   %cond = icmp eq i32 %.7, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.15 = icmp sgt i32 %.7, 0
-  call void @numba_gil_ensure(ptr nonnull %.19)
-  br i1 %.15, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.22, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.17, %.22 ], [ %.17, %entry ]
-  ret i64 %common.ret.op
-
-.22:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.70 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.12")
-  call void @PyErr_WriteUnraisable(ptr %.70)
-  call void @Py_DecRef(ptr %.70)
-  call void @numba_gil_release(ptr nonnull %.19)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.25 = load { ptr, i32, ptr, ptr, i32 }, ptr %.8, align 8
-  %.26 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 4
-  %.27 = icmp sgt i32 %.26, 0
-  %.30 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 0
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 1
-  br i1 %.27, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.7, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.22
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.33 = sext i32 %.32 to i64
-  %.34 = call ptr @PyBytes_FromStringAndSize(ptr %.30, i64 %.33)
-  %.35 = load { ptr, i32, ptr, ptr, i32 }, ptr %.8, align 8
-  %.36 = extractvalue { ptr, i32, ptr, ptr, i32 } %.35, 2
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.35, 3
-  %.40 = call ptr %.38(ptr %.36)
-  %.41 = icmp eq ptr %.40, null
-  br i1 %.41, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.54 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 2
-  %.55 = call ptr @numba_unpickle(ptr %.30, i32 %.32, ptr %.54)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.57 = phi ptr [ %.45, %entry.if.if.if.endif ], [ %.55, %entry.if.if.else ]
-  %.58.not = icmp eq ptr %.57, null
-  br i1 %.58.not, label %.22, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.13")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.45 = call ptr @numba_runtime_build_excinfo_struct(ptr %.34, ptr nonnull %.40)
-  call void @NRT_Free(ptr nonnull %.8)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.57)
-  br label %.22
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.22
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.14")
-  br label %.22
+common.ret:
+  %.17 = load i64, ptr %.3, align 8
+  ret i64 %.17
 }
 
-define i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr readonly %arg.x, double %arg.h, ptr %arg.dx) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr readonly %arg.x, double %arg.h, ptr %arg.dx) local_unnamed_addr #0 {
 B0:
+  %.6.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.27 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.56 = alloca [4 x double], align 8
@@ -2295,87 +1770,92 @@ B0:
   switch i32 %.31, label %common.ret [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-B278:                                             ; preds = %B236.endif.endif, %B0.endif.endif.endif
-  %"$phi278.4.2.0" = phi double [ %.166, %B236.endif.endif ], [ 0.000000e+00, %B0.endif.endif.endif ]
+B278:
+  %"$phi278.4.2.0" = phi double [ %.166, %B236.endif.endif ], [ 0.000000e+00, %flow.exit ]
   %.188 = call i32 @_ZN18biped_adrc_kernels11relax_slopeB3v23B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.184, ptr nonnull %excinfo.5, ptr nonnull %arg.r, ptr %arg.x, double %"$phi278.4.2.0", ptr %arg.dx)
   switch i32 %.188, label %B278.if.if [
     i32 -2, label %common.ret
     i32 0, label %common.ret
-  ], !prof !9
+  ], !prof !8
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.60 = call i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr nonnull %.56, ptr nonnull %excinfo.2, double %.17)
   switch i32 %.60, label %common.ret [
     i32 -2, label %B0.endif.endif
     i32 0, label %B0.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B278.if.if, %B0.endif.endif, %B0.endif, %B278, %B278, %B0
+common.ret:
   %excinfo.sink = phi ptr [ %excinfo, %B278.if.if ], [ %excinfo, %B0.endif.endif ], [ %excinfo, %B0.endif ], [ %excinfo, %B0 ], [ %retptr, %B278 ], [ %retptr, %B278 ]
   %common.ret.op = phi i32 [ %.188, %B278.if.if ], [ %.92, %B0.endif.endif ], [ %.60, %B0.endif ], [ %.31, %B0 ], [ 0, %B278 ], [ 0, %B278 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B0.endif.endif:                                   ; preds = %B0.endif, %B0.endif
+B0.endif.endif:
   %.70.fca.0.load = load double, ptr %.56, align 8
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 576
-  %.86 = load i64, ptr %sunkaddr, align 8
+  %.86 = load i64, ptr %.22, align 8
   %.87 = inttoptr i64 %.86 to ptr
   %.92 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.88, ptr nonnull %excinfo.3, ptr nonnull %arg.r, ptr %arg.x, double %.70.fca.0.load, ptr %.87)
   switch i32 %.92, label %common.ret [
     i32 -2, label %B0.endif.endif.endif
     i32 0, label %B0.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif:                             ; preds = %B0.endif.endif, %B0.endif.endif
-  %sunkaddr1 = getelementptr i8, ptr %arg.r, i64 576
-  %.113 = load i64, ptr %sunkaddr1, align 8
+B0.endif.endif.endif:
+  %.113 = load i64, ptr %.22, align 8
   %.114 = inttoptr i64 %.113 to ptr
-  %.116 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t, ptr %.114, ptr %arg.dx)
+  %.10.i = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.t, ptr readonly %.114, ptr %arg.dx) #0
+  %cond.i = icmp eq i32 %.10.i, 0
+  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit:
   %.119 = fcmp ogt double %arg.h, 0.000000e+00
   br i1 %.119, label %B236.endif.endif, label %B278
 
-B236.endif.endif:                                 ; preds = %B0.endif.endif.endif
+B236.endif.endif:
   %.12.i = fcmp ogt double %.17, 3.000000e+00
   %.17.neg = fneg double %.17
   %.161 = select i1 %.12.i, double -3.000000e+00, double %.17.neg
   %.166 = fdiv double %.161, %arg.h
   br label %B278
 
-B278.if.if:                                       ; preds = %B278
+B278.if.if:
   br label %common.ret
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(argmem: readwrite)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels11relax_slopeB3v23B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, ptr readonly %arg.x, double %arg.steep, ptr writeonly %arg.dx) local_unnamed_addr #1 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels11relax_slopeB3v23B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, ptr readonly %arg.x, double %arg.steep, ptr writeonly %arg.dx) local_unnamed_addr #0 {
 B0.endif:
   %.17 = getelementptr i8, ptr %arg.r, i64 88
   %.18 = load i64, ptr %.17, align 8
   %.10040.not = icmp slt i64 %.18, 1
   br i1 %.10040.not, label %B160, label %B46.lr.ph
 
-B46.lr.ph:                                        ; preds = %B0.endif
+B46.lr.ph:
   %xtraiter = and i64 %.18, 3
   %0 = icmp samesign ult i64 %.18, 4
   br i1 %0, label %B46.epil.preheader, label %B46.lr.ph.new
 
-B46.lr.ph.new:                                    ; preds = %B46.lr.ph
+B46.lr.ph.new:
   %1 = and i64 %.18, 9223372036854775804
+  %sunkaddr21 = getelementptr i8, ptr %arg.r, i64 160
+  %sunkaddr22 = getelementptr i8, ptr %arg.r, i64 80
   br label %B46
 
-B46:                                              ; preds = %B46, %B46.lr.ph.new
+B46:
   %lsr.iv1 = phi i64 [ %lsr.iv.next2, %B46 ], [ 0, %B46.lr.ph.new ]
-  %sunkaddr21 = getelementptr i8, ptr %arg.r, i64 160
   %.140 = load i64, ptr %sunkaddr21, align 8
-  %2 = add i64 %lsr.iv1, %.140
+  %2 = add i64 %.140, %lsr.iv1
   %.143 = getelementptr double, ptr %arg.x, i64 %2
   %.144 = load double, ptr %.143, align 8
-  %sunkaddr22 = getelementptr i8, ptr %arg.r, i64 80
   %.147 = load i64, ptr %sunkaddr22, align 8
-  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 88
-  %.150 = load i64, ptr %sunkaddr23, align 8
+  %.150 = load i64, ptr %.17, align 8
   %3 = sub i64 %.147, %.150
   %4 = shl i64 %3, 3
   %scevgep13 = getelementptr i8, ptr %arg.x, i64 %4
@@ -2387,17 +1867,16 @@ B46:                                              ; preds = %B46, %B46.lr.ph.new
   %.164 = getelementptr double, ptr %arg.dx, i64 %2
   store double %.158, ptr %.164, align 8
   %.140.1 = load i64, ptr %sunkaddr21, align 8
-  %6 = add i64 %lsr.iv1, %.140.1
-  %7 = add i64 %6, 1
+  %6 = or disjoint i64 %lsr.iv1, 1
+  %7 = add i64 %6, %.140.1
   %.143.1 = getelementptr double, ptr %arg.x, i64 %7
   %.144.1 = load double, ptr %.143.1, align 8
   %.147.1 = load i64, ptr %sunkaddr22, align 8
-  %.150.1 = load i64, ptr %sunkaddr23, align 8
+  %.150.1 = load i64, ptr %.17, align 8
   %8 = sub i64 %.147.1, %.150.1
   %9 = shl i64 %8, 3
   %scevgep10 = getelementptr i8, ptr %arg.x, i64 %9
-  %10 = shl i64 %lsr.iv1, 3
-  %scevgep18 = getelementptr i8, ptr %scevgep10, i64 %10
+  %scevgep18 = getelementptr i8, ptr %scevgep10, i64 %5
   %scevgep19 = getelementptr i8, ptr %scevgep18, i64 8
   %.155.1 = load double, ptr %scevgep19, align 8
   %.156.1 = fsub double %.144.1, %.155.1
@@ -2405,94 +1884,91 @@ B46:                                              ; preds = %B46, %B46.lr.ph.new
   %.164.1 = getelementptr double, ptr %arg.dx, i64 %7
   store double %.158.1, ptr %.164.1, align 8
   %.140.2 = load i64, ptr %sunkaddr21, align 8
-  %11 = add i64 %lsr.iv1, %.140.2
-  %12 = add i64 %11, 2
-  %.143.2 = getelementptr double, ptr %arg.x, i64 %12
+  %10 = or disjoint i64 %lsr.iv1, 2
+  %11 = add i64 %10, %.140.2
+  %.143.2 = getelementptr double, ptr %arg.x, i64 %11
   %.144.2 = load double, ptr %.143.2, align 8
   %.147.2 = load i64, ptr %sunkaddr22, align 8
-  %.150.2 = load i64, ptr %sunkaddr23, align 8
-  %13 = sub i64 %.147.2, %.150.2
-  %14 = shl i64 %13, 3
-  %scevgep7 = getelementptr i8, ptr %arg.x, i64 %14
-  %15 = shl i64 %lsr.iv1, 3
-  %scevgep16 = getelementptr i8, ptr %scevgep7, i64 %15
+  %.150.2 = load i64, ptr %.17, align 8
+  %12 = sub i64 %.147.2, %.150.2
+  %13 = shl i64 %12, 3
+  %scevgep7 = getelementptr i8, ptr %arg.x, i64 %13
+  %scevgep16 = getelementptr i8, ptr %scevgep7, i64 %5
   %scevgep17 = getelementptr i8, ptr %scevgep16, i64 16
   %.155.2 = load double, ptr %scevgep17, align 8
   %.156.2 = fsub double %.144.2, %.155.2
   %.158.2 = fmul double %arg.steep, %.156.2
-  %.164.2 = getelementptr double, ptr %arg.dx, i64 %12
+  %.164.2 = getelementptr double, ptr %arg.dx, i64 %11
   store double %.158.2, ptr %.164.2, align 8
   %.140.3 = load i64, ptr %sunkaddr21, align 8
-  %16 = add i64 %lsr.iv1, %.140.3
-  %17 = add i64 %16, 3
-  %.143.3 = getelementptr double, ptr %arg.x, i64 %17
+  %14 = or disjoint i64 %lsr.iv1, 3
+  %15 = add i64 %14, %.140.3
+  %.143.3 = getelementptr double, ptr %arg.x, i64 %15
   %.144.3 = load double, ptr %.143.3, align 8
   %.147.3 = load i64, ptr %sunkaddr22, align 8
-  %.150.3 = load i64, ptr %sunkaddr23, align 8
-  %18 = sub i64 %.147.3, %.150.3
-  %19 = shl i64 %18, 3
-  %scevgep5 = getelementptr i8, ptr %arg.x, i64 %19
-  %20 = shl i64 %lsr.iv1, 3
-  %scevgep3 = getelementptr i8, ptr %scevgep5, i64 %20
+  %.150.3 = load i64, ptr %.17, align 8
+  %16 = sub i64 %.147.3, %.150.3
+  %17 = shl i64 %16, 3
+  %scevgep5 = getelementptr i8, ptr %arg.x, i64 %17
+  %scevgep3 = getelementptr i8, ptr %scevgep5, i64 %5
   %scevgep4 = getelementptr i8, ptr %scevgep3, i64 24
   %.155.3 = load double, ptr %scevgep4, align 8
   %.156.3 = fsub double %.144.3, %.155.3
   %.158.3 = fmul double %arg.steep, %.156.3
-  %.164.3 = getelementptr double, ptr %arg.dx, i64 %17
+  %.164.3 = getelementptr double, ptr %arg.dx, i64 %15
   store double %.158.3, ptr %.164.3, align 8
   %lsr.iv.next2 = add nuw nsw i64 %lsr.iv1, 4
   %niter.ncmp.3 = icmp eq i64 %1, %lsr.iv.next2
   br i1 %niter.ncmp.3, label %B160.loopexit.unr-lcssa, label %B46
 
-B160.loopexit.unr-lcssa:                          ; preds = %B46
+B160.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B160, label %B46.epil.preheader
 
-B46.epil.preheader:                               ; preds = %B160.loopexit.unr-lcssa, %B46.lr.ph
-  %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %lsr.iv.next2, %B160.loopexit.unr-lcssa ]
+B46.epil.preheader:
+  %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %1, %B160.loopexit.unr-lcssa ]
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 160
+  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 80
   br label %B46.epil
 
-B46.epil:                                         ; preds = %B46.epil, %B46.epil.preheader
+B46.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B46.epil ], [ %xtraiter, %B46.epil.preheader ]
   %.1063941.epil = phi i64 [ %.113.epil, %B46.epil ], [ %.1063941.epil.init, %B46.epil.preheader ]
   %.113.epil = add nuw nsw i64 %.1063941.epil, 1
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 160
   %.140.epil = load i64, ptr %sunkaddr, align 8
-  %21 = add i64 %.1063941.epil, %.140.epil
-  %.143.epil = getelementptr double, ptr %arg.x, i64 %21
+  %18 = add i64 %.140.epil, %.1063941.epil
+  %.143.epil = getelementptr double, ptr %arg.x, i64 %18
   %.144.epil = load double, ptr %.143.epil, align 8
-  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 80
   %.147.epil = load i64, ptr %sunkaddr24, align 8
-  %sunkaddr25 = getelementptr i8, ptr %arg.r, i64 88
-  %.150.epil = load i64, ptr %sunkaddr25, align 8
-  %22 = sub i64 %.147.epil, %.150.epil
-  %23 = shl i64 %22, 3
-  %scevgep = getelementptr i8, ptr %arg.x, i64 %23
-  %24 = shl i64 %.1063941.epil, 3
-  %scevgep2 = getelementptr i8, ptr %scevgep, i64 %24
+  %.150.epil = load i64, ptr %.17, align 8
+  %19 = sub i64 %.147.epil, %.150.epil
+  %20 = shl i64 %19, 3
+  %scevgep = getelementptr i8, ptr %arg.x, i64 %20
+  %21 = shl i64 %.1063941.epil, 3
+  %scevgep2 = getelementptr i8, ptr %scevgep, i64 %21
   %.155.epil = load double, ptr %scevgep2, align 8
   %.156.epil = fsub double %.144.epil, %.155.epil
   %.158.epil = fmul double %arg.steep, %.156.epil
-  %.164.epil = getelementptr double, ptr %arg.dx, i64 %21
+  %.164.epil = getelementptr double, ptr %arg.dx, i64 %18
   store double %.158.epil, ptr %.164.epil, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B160, label %B46.epil, !llvm.loop !69
+  br i1 %epil.iter.cmp.not, label %B160, label %B46.epil, !llvm.loop !72
 
-B160:                                             ; preds = %B46.epil, %B160.loopexit.unr-lcssa, %B0.endif
+B160:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-; Function Attrs: mustprogress nofree norecurse nosync nounwind willreturn memory(argmem: write)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr noalias writeonly initializes((0, 32)) %retptr, ptr noalias readnone %excinfo, double %arg.theta) local_unnamed_addr #4 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr noalias writeonly initializes((0, 32)) %retptr, ptr noalias readnone %excinfo, double %arg.theta) local_unnamed_addr #0 {
 B0:
   %.8 = fneg double %arg.theta
   %.9 = tail call double @llvm.exp.f64(double %.8)
   %.14 = fcmp olt double %arg.theta, 1.000000e+00
   br i1 %.14, label %B58.endif.endif.endif, label %B176
 
-B176:                                             ; preds = %B0
+B176:
   %.193 = fsub double 1.000000e+00, %.9
   %.198 = fdiv double %.193, %arg.theta
   %.202 = fsub double %.198, %.9
@@ -2502,7 +1978,7 @@ B176:                                             ; preds = %B0
   %.217 = fdiv double %.212, %arg.theta
   br label %B230
 
-B230:                                             ; preds = %B58.endif.endif.endif, %B176
+B230:
   %.224.pre-phi = phi double [ %.210, %B176 ], [ %.pre, %B58.endif.endif.endif ]
   %m2.4.0 = phi double [ %.217, %B176 ], [ %.157.17, %B58.endif.endif.endif ]
   %m1.2.0 = phi double [ %.207, %B176 ], [ %.178, %B58.endif.endif.endif ]
@@ -2529,7 +2005,7 @@ B230:                                             ; preds = %B58.endif.endif.end
   store double %.9, ptr %retptr.repack42, align 8
   ret i32 0
 
-B58.endif.endif.endif:                            ; preds = %B0
+B58.endif.endif.endif:
   %.20 = fdiv double %.9, 3.000000e+00
   %.151 = fmul double %arg.theta, 2.500000e-01
   %.153 = fmul double %.151, %.20
@@ -2594,38 +2070,37 @@ B58.endif.endif.endif:                            ; preds = %B0
   br label %B230
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(argmem: readwrite)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, ptr readonly %arg.x, double %arg.weight, ptr writeonly %arg.out) local_unnamed_addr #1 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, ptr readonly %arg.x, double %arg.weight, ptr writeonly %arg.out) local_unnamed_addr #0 {
 B0.endif:
   %.17 = getelementptr i8, ptr %arg.r, i64 88
   %.18 = load i64, ptr %.17, align 8
   %.10040.not = icmp slt i64 %.18, 1
   br i1 %.10040.not, label %B170, label %B46.lr.ph
 
-B46.lr.ph:                                        ; preds = %B0.endif
+B46.lr.ph:
   %xtraiter = and i64 %.18, 3
   %0 = icmp samesign ult i64 %.18, 4
   br i1 %0, label %B46.epil.preheader, label %B46.lr.ph.new
 
-B46.lr.ph.new:                                    ; preds = %B46.lr.ph
+B46.lr.ph.new:
   %1 = and i64 %.18, 9223372036854775804
+  %sunkaddr21 = getelementptr i8, ptr %arg.r, i64 80
+  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 160
   br label %B46
 
-B46:                                              ; preds = %B46, %B46.lr.ph.new
+B46:
   %lsr.iv1 = phi i64 [ %lsr.iv.next2, %B46 ], [ 0, %B46.lr.ph.new ]
-  %sunkaddr21 = getelementptr i8, ptr %arg.r, i64 80
   %.140 = load i64, ptr %sunkaddr21, align 8
-  %sunkaddr22 = getelementptr i8, ptr %arg.r, i64 88
-  %.143 = load i64, ptr %sunkaddr22, align 8
+  %.143 = load i64, ptr %.17, align 8
   %2 = sub i64 %.140, %.143
   %3 = shl i64 %2, 3
   %scevgep13 = getelementptr i8, ptr %arg.x, i64 %3
   %4 = shl i64 %lsr.iv1, 3
   %scevgep20 = getelementptr i8, ptr %scevgep13, i64 %4
   %.148 = load double, ptr %scevgep20, align 8
-  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 160
   %.151 = load i64, ptr %sunkaddr23, align 8
-  %5 = add i64 %lsr.iv1, %.151
+  %5 = add i64 %.151, %lsr.iv1
   %.154 = getelementptr double, ptr %arg.x, i64 %5
   %.155 = load double, ptr %.154, align 8
   %.156 = fsub double %.155, %.148
@@ -2634,199 +2109,136 @@ B46:                                              ; preds = %B46, %B46.lr.ph.new
   %.165 = getelementptr double, ptr %arg.out, i64 %5
   store double %.159, ptr %.165, align 8
   %.140.1 = load i64, ptr %sunkaddr21, align 8
-  %.143.1 = load i64, ptr %sunkaddr22, align 8
+  %.143.1 = load i64, ptr %.17, align 8
   %6 = sub i64 %.140.1, %.143.1
   %7 = shl i64 %6, 3
   %scevgep10 = getelementptr i8, ptr %arg.x, i64 %7
-  %8 = shl i64 %lsr.iv1, 3
-  %scevgep18 = getelementptr i8, ptr %scevgep10, i64 %8
+  %scevgep18 = getelementptr i8, ptr %scevgep10, i64 %4
   %scevgep19 = getelementptr i8, ptr %scevgep18, i64 8
   %.148.1 = load double, ptr %scevgep19, align 8
   %.151.1 = load i64, ptr %sunkaddr23, align 8
-  %9 = add i64 %lsr.iv1, %.151.1
-  %10 = add i64 %9, 1
-  %.154.1 = getelementptr double, ptr %arg.x, i64 %10
+  %8 = or disjoint i64 %lsr.iv1, 1
+  %9 = add i64 %8, %.151.1
+  %.154.1 = getelementptr double, ptr %arg.x, i64 %9
   %.155.1 = load double, ptr %.154.1, align 8
   %.156.1 = fsub double %.155.1, %.148.1
   %.158.1 = fmul double %arg.weight, %.156.1
   %.159.1 = fadd double %.148.1, %.158.1
-  %.165.1 = getelementptr double, ptr %arg.out, i64 %10
+  %.165.1 = getelementptr double, ptr %arg.out, i64 %9
   store double %.159.1, ptr %.165.1, align 8
   %.140.2 = load i64, ptr %sunkaddr21, align 8
-  %.143.2 = load i64, ptr %sunkaddr22, align 8
-  %11 = sub i64 %.140.2, %.143.2
-  %12 = shl i64 %11, 3
-  %scevgep7 = getelementptr i8, ptr %arg.x, i64 %12
-  %13 = shl i64 %lsr.iv1, 3
-  %scevgep16 = getelementptr i8, ptr %scevgep7, i64 %13
+  %.143.2 = load i64, ptr %.17, align 8
+  %10 = sub i64 %.140.2, %.143.2
+  %11 = shl i64 %10, 3
+  %scevgep7 = getelementptr i8, ptr %arg.x, i64 %11
+  %scevgep16 = getelementptr i8, ptr %scevgep7, i64 %4
   %scevgep17 = getelementptr i8, ptr %scevgep16, i64 16
   %.148.2 = load double, ptr %scevgep17, align 8
   %.151.2 = load i64, ptr %sunkaddr23, align 8
-  %14 = add i64 %lsr.iv1, %.151.2
-  %15 = add i64 %14, 2
-  %.154.2 = getelementptr double, ptr %arg.x, i64 %15
+  %12 = or disjoint i64 %lsr.iv1, 2
+  %13 = add i64 %12, %.151.2
+  %.154.2 = getelementptr double, ptr %arg.x, i64 %13
   %.155.2 = load double, ptr %.154.2, align 8
   %.156.2 = fsub double %.155.2, %.148.2
   %.158.2 = fmul double %arg.weight, %.156.2
   %.159.2 = fadd double %.148.2, %.158.2
-  %.165.2 = getelementptr double, ptr %arg.out, i64 %15
+  %.165.2 = getelementptr double, ptr %arg.out, i64 %13
   store double %.159.2, ptr %.165.2, align 8
   %.140.3 = load i64, ptr %sunkaddr21, align 8
-  %.143.3 = load i64, ptr %sunkaddr22, align 8
-  %16 = sub i64 %.140.3, %.143.3
-  %17 = shl i64 %16, 3
-  %scevgep3 = getelementptr i8, ptr %arg.x, i64 %17
-  %18 = shl i64 %lsr.iv1, 3
-  %scevgep4 = getelementptr i8, ptr %scevgep3, i64 %18
+  %.143.3 = load i64, ptr %.17, align 8
+  %14 = sub i64 %.140.3, %.143.3
+  %15 = shl i64 %14, 3
+  %scevgep3 = getelementptr i8, ptr %arg.x, i64 %15
+  %scevgep4 = getelementptr i8, ptr %scevgep3, i64 %4
   %scevgep5 = getelementptr i8, ptr %scevgep4, i64 24
   %.148.3 = load double, ptr %scevgep5, align 8
   %.151.3 = load i64, ptr %sunkaddr23, align 8
-  %19 = add i64 %lsr.iv1, %.151.3
-  %20 = add i64 %19, 3
-  %.154.3 = getelementptr double, ptr %arg.x, i64 %20
+  %16 = or disjoint i64 %lsr.iv1, 3
+  %17 = add i64 %16, %.151.3
+  %.154.3 = getelementptr double, ptr %arg.x, i64 %17
   %.155.3 = load double, ptr %.154.3, align 8
   %.156.3 = fsub double %.155.3, %.148.3
   %.158.3 = fmul double %arg.weight, %.156.3
   %.159.3 = fadd double %.148.3, %.158.3
-  %.165.3 = getelementptr double, ptr %arg.out, i64 %20
+  %.165.3 = getelementptr double, ptr %arg.out, i64 %17
   store double %.159.3, ptr %.165.3, align 8
   %lsr.iv.next2 = add nuw nsw i64 %lsr.iv1, 4
   %niter.ncmp.3 = icmp eq i64 %1, %lsr.iv.next2
   br i1 %niter.ncmp.3, label %B170.loopexit.unr-lcssa, label %B46
 
-B170.loopexit.unr-lcssa:                          ; preds = %B46
+B170.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B170, label %B46.epil.preheader
 
-B46.epil.preheader:                               ; preds = %B170.loopexit.unr-lcssa, %B46.lr.ph
-  %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %lsr.iv.next2, %B170.loopexit.unr-lcssa ]
+B46.epil.preheader:
+  %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %1, %B170.loopexit.unr-lcssa ]
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 80
+  %sunkaddr25 = getelementptr i8, ptr %arg.r, i64 160
   br label %B46.epil
 
-B46.epil:                                         ; preds = %B46.epil, %B46.epil.preheader
+B46.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B46.epil ], [ %xtraiter, %B46.epil.preheader ]
   %.1063941.epil = phi i64 [ %.113.epil, %B46.epil ], [ %.1063941.epil.init, %B46.epil.preheader ]
   %.113.epil = add nuw nsw i64 %.1063941.epil, 1
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 80
   %.140.epil = load i64, ptr %sunkaddr, align 8
-  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 88
-  %.143.epil = load i64, ptr %sunkaddr24, align 8
-  %21 = sub i64 %.140.epil, %.143.epil
-  %22 = shl i64 %21, 3
-  %scevgep = getelementptr i8, ptr %arg.x, i64 %22
-  %23 = shl i64 %.1063941.epil, 3
-  %scevgep2 = getelementptr i8, ptr %scevgep, i64 %23
+  %.143.epil = load i64, ptr %.17, align 8
+  %18 = sub i64 %.140.epil, %.143.epil
+  %19 = shl i64 %18, 3
+  %scevgep = getelementptr i8, ptr %arg.x, i64 %19
+  %20 = shl i64 %.1063941.epil, 3
+  %scevgep2 = getelementptr i8, ptr %scevgep, i64 %20
   %.148.epil = load double, ptr %scevgep2, align 8
-  %sunkaddr25 = getelementptr i8, ptr %arg.r, i64 160
   %.151.epil = load i64, ptr %sunkaddr25, align 8
-  %24 = add i64 %.1063941.epil, %.151.epil
-  %.154.epil = getelementptr double, ptr %arg.x, i64 %24
+  %21 = add i64 %.151.epil, %.1063941.epil
+  %.154.epil = getelementptr double, ptr %arg.x, i64 %21
   %.155.epil = load double, ptr %.154.epil, align 8
   %.156.epil = fsub double %.155.epil, %.148.epil
   %.158.epil = fmul double %arg.weight, %.156.epil
   %.159.epil = fadd double %.148.epil, %.158.epil
-  %.165.epil = getelementptr double, ptr %arg.out, i64 %24
+  %.165.epil = getelementptr double, ptr %arg.out, i64 %21
   store double %.159.epil, ptr %.165.epil, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B170, label %B46.epil, !llvm.loop !70
+  br i1 %epil.iter.cmp.not, label %B170, label %B46.epil, !llvm.loop !73
 
-B170:                                             ; preds = %B46.epil, %B170.loopexit.unr-lcssa, %B0.endif
+B170:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
+
 declare double @llvm.exp.f64(double) #2
 
-define ptr @lagging(ptr %.1, double %.2, ptr readonly %.3, double %.4, ptr %.5) local_unnamed_addr {
+
+define ptr @lagging(ptr %.1, double %.2, ptr readonly %.3, double %.4, ptr %.5) local_unnamed_addr #0 {
 entry:
   %.7 = alloca ptr, align 8
   store ptr null, ptr %.7, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.11 = call i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, double %.4, ptr %.5) #9
-  %.12 = load ptr, ptr %excinfo, align 8
-  %.21 = load ptr, ptr %.7, align 8
-  %.23 = alloca i32, align 4
-  store i32 0, ptr %.23, align 4
+  %.11 = call i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, double %.4, ptr %.5) #0
   %cond = icmp eq i32 %.11, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.19 = icmp sgt i32 %.11, 0
-  call void @numba_gil_ensure(ptr nonnull %.23)
-  br i1 %.19, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.26, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.21, %.26 ], [ %.21, %entry ]
-  ret ptr %common.ret.op
-
-.26:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.74 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.15")
-  call void @PyErr_WriteUnraisable(ptr %.74)
-  call void @Py_DecRef(ptr %.74)
-  call void @numba_gil_release(ptr nonnull %.23)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.29 = load { ptr, i32, ptr, ptr, i32 }, ptr %.12, align 8
-  %.30 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 4
-  %.31 = icmp sgt i32 %.30, 0
-  %.34 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 0
-  %.36 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 1
-  br i1 %.31, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.11, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.26
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.37 = sext i32 %.36 to i64
-  %.38 = call ptr @PyBytes_FromStringAndSize(ptr %.34, i64 %.37)
-  %.39 = load { ptr, i32, ptr, ptr, i32 }, ptr %.12, align 8
-  %.40 = extractvalue { ptr, i32, ptr, ptr, i32 } %.39, 2
-  %.42 = extractvalue { ptr, i32, ptr, ptr, i32 } %.39, 3
-  %.44 = call ptr %.42(ptr %.40)
-  %.45 = icmp eq ptr %.44, null
-  br i1 %.45, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.58 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 2
-  %.59 = call ptr @numba_unpickle(ptr %.34, i32 %.36, ptr %.58)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.61 = phi ptr [ %.49, %entry.if.if.if.endif ], [ %.59, %entry.if.if.else ]
-  %.62.not = icmp eq ptr %.61, null
-  br i1 %.62.not, label %.26, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.16")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.49 = call ptr @numba_runtime_build_excinfo_struct(ptr %.38, ptr nonnull %.44)
-  call void @NRT_Free(ptr nonnull %.12)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.61)
-  br label %.26
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.26
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.17")
-  br label %.26
+common.ret:
+  %.21 = load ptr, ptr %.7, align 8
+  ret ptr %.21
 }
 
-define i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr %arg.x, ptr readonly %arg.dx, double %arg.h, ptr writeonly %arg.out) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr %arg.x, ptr readonly %arg.dx, double %arg.h, ptr writeonly %arg.out) local_unnamed_addr #0 {
 B0:
+  %.7.i = alloca ptr, align 8
+  %excinfo.i15 = alloca ptr, align 8
+  %.6.i8 = alloca ptr, align 8
+  %excinfo.i9 = alloca ptr, align 8
+  %.6.i1 = alloca ptr, align 8
+  %excinfo.i2 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.91 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.154 = alloca [4 x double], align 8
@@ -2860,7 +2272,7 @@ B0:
   %.67 = icmp sgt i64 %.31, 0
   br i1 %.67, label %B92, label %B244
 
-B92:                                              ; preds = %B0
+B92:
   %0 = inttoptr i64 %.34 to ptr
   %.74 = getelementptr i8, ptr %arg.r, i64 88
   %.75 = load i64, ptr %.74, align 8
@@ -2871,15 +2283,15 @@ B92:                                              ; preds = %B0
   switch i32 %.95, label %common.ret [
     i32 -2, label %B244
     i32 0, label %B244
-  ], !prof !9
+  ], !prof !8
 
-B244:                                             ; preds = %B92, %B92, %B0
+B244:
   %.143 = getelementptr i8, ptr %arg.r, i64 160
   %.144 = load i64, ptr %.143, align 8
   %.145 = icmp sgt i64 %.144, 0
   br i1 %.145, label %B266, label %B384
 
-B266:                                             ; preds = %B244
+B266:
   %.149 = getelementptr i8, ptr %arg.r, i64 240
   %.151 = load double, ptr %.149, align 8
   %.153 = fmul double %arg.h, %.151
@@ -2887,172 +2299,191 @@ B266:                                             ; preds = %B244
   switch i32 %.158, label %common.ret [
     i32 -2, label %B266.endif
     i32 0, label %B266.endif
-  ], !prof !9
+  ], !prof !8
 
-B384:                                             ; preds = %B266.endif, %B244
-  %dx.2.0 = phi ptr [ %.212, %B266.endif ], [ %arg.dx, %B244 ]
-  %middle.2.0 = phi double [ %.168.fca.1.load, %B266.endif ], [ 0.000000e+00, %B244 ]
-  %last.2.0 = phi double [ %.168.fca.2.load, %B266.endif ], [ 0.000000e+00, %B244 ]
-  %end.2.0 = phi double [ %.168.fca.3.load, %B266.endif ], [ 0.000000e+00, %B244 ]
+B384:
+  %dx.2.0 = phi ptr [ %.212, %lagging.exit ], [ %arg.dx, %B244 ]
+  %middle.2.0 = phi double [ %.168.fca.1.load, %lagging.exit ], [ 0.000000e+00, %B244 ]
+  %last.2.0 = phi double [ %.168.fca.2.load, %lagging.exit ], [ 0.000000e+00, %B244 ]
+  %end.2.0 = phi double [ %.168.fca.3.load, %lagging.exit ], [ 0.000000e+00, %B244 ]
   %1 = inttoptr i64 %.34 to ptr
   %.218 = fmul double %arg.h, 5.000000e-01
   %.227 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.223, ptr nonnull %excinfo.3, ptr %arg.x, double %.218, ptr %dx.2.0, ptr %1, i64 %.24)
   switch i32 %.227, label %common.ret [
     i32 -2, label %B384.endif
     i32 0, label %B384.endif
-  ], !prof !9
+  ], !prof !8
 
-B450:                                             ; preds = %B384.endif
-  %2 = inttoptr i64 %.34 to ptr
-  %.261 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.257, ptr nonnull %excinfo.4, ptr nonnull %arg.r, ptr %arg.x, double %middle.2.0, ptr %2)
+B450:
+  %.261 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.257, ptr nonnull %excinfo.4, ptr nonnull %arg.r, ptr %arg.x, double %middle.2.0, ptr %1)
   switch i32 %.261, label %common.ret [
     i32 -2, label %B486
     i32 0, label %B486
-  ], !prof !9
+  ], !prof !8
 
-B486:                                             ; preds = %B384.endif, %B450, %B450
-  %3 = inttoptr i64 %.34 to ptr
+B486:
   %.285 = fadd double %arg.t, %.218
   %.287 = getelementptr i8, ptr %arg.r, i64 592
   %.288 = load i64, ptr %.287, align 8
   %.289 = inttoptr i64 %.288 to ptr
-  %.292 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %3, ptr %.289)
+  %.10.i = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.285, ptr readonly %1, ptr %.289) #0
+  %cond.i = icmp eq i32 %.10.i, 0
+  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit:
   %.298 = load i64, ptr %.287, align 8
   %.299 = inttoptr i64 %.298 to ptr
-  %.307 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.303, ptr nonnull %excinfo.5, ptr %arg.x, double %.218, ptr %.299, ptr %3, i64 %.24)
+  %.307 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.303, ptr nonnull %excinfo.5, ptr %arg.x, double %.218, ptr %.299, ptr %1, i64 %.24)
   switch i32 %.307, label %common.ret [
     i32 -2, label %B486.endif
     i32 0, label %B486.endif
-  ], !prof !9
+  ], !prof !8
 
-B620:                                             ; preds = %B486.endif
-  %4 = inttoptr i64 %.34 to ptr
-  %.341 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.337, ptr nonnull %excinfo.6, ptr nonnull %arg.r, ptr %arg.x, double %middle.2.0, ptr %4)
+B620:
+  %.341 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.337, ptr nonnull %excinfo.6, ptr nonnull %arg.r, ptr %arg.x, double %middle.2.0, ptr %1)
   switch i32 %.341, label %common.ret [
     i32 -2, label %B656
     i32 0, label %B656
-  ], !prof !9
+  ], !prof !8
 
-B656:                                             ; preds = %B486.endif, %B620, %B620
-  %5 = inttoptr i64 %.34 to ptr
+B656:
   %.371 = getelementptr i8, ptr %arg.r, i64 600
   %.372 = load i64, ptr %.371, align 8
   %.373 = inttoptr i64 %.372 to ptr
-  %.376 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %5, ptr %.373)
+  %.10.i3 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i1, ptr nonnull %excinfo.i2, ptr nonnull %arg.r, double %.285, ptr readonly %1, ptr %.373) #0
+  %cond.i4 = icmp eq i32 %.10.i3, 0
+  br i1 %cond.i4, label %flow.exit7, label %entry.if.i5, !prof !24
+
+entry.if.i5:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit7:
   %.380 = load i64, ptr %.371, align 8
   %.381 = inttoptr i64 %.380 to ptr
-  %.390 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.386, ptr nonnull %excinfo.7, ptr %arg.x, double %arg.h, ptr %.381, ptr %5, i64 %.24)
+  %.390 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.386, ptr nonnull %excinfo.7, ptr %arg.x, double %arg.h, ptr %.381, ptr %1, i64 %.24)
   switch i32 %.390, label %common.ret [
     i32 -2, label %B656.endif
     i32 0, label %B656.endif
-  ], !prof !9
+  ], !prof !8
 
-B784:                                             ; preds = %B656.endif
-  %6 = inttoptr i64 %.34 to ptr
-  %.424 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.420, ptr nonnull %excinfo.8, ptr nonnull %arg.r, ptr %arg.x, double %last.2.0, ptr %6)
+B784:
+  %.424 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.420, ptr nonnull %excinfo.8, ptr nonnull %arg.r, ptr %arg.x, double %last.2.0, ptr %1)
   switch i32 %.424, label %common.ret [
     i32 -2, label %B820
     i32 0, label %B820
-  ], !prof !9
+  ], !prof !8
 
-B820:                                             ; preds = %B656.endif, %B784, %B784
-  %7 = inttoptr i64 %.34 to ptr
+B820:
   %.451 = fadd double %arg.t, %arg.h
   %.455 = getelementptr i8, ptr %arg.r, i64 608
   %.456 = load i64, ptr %.455, align 8
   %.457 = inttoptr i64 %.456 to ptr
-  %.460 = tail call ptr @flow(ptr nonnull %arg.r, double %.451, ptr %7, ptr %.457)
+  %.10.i10 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %.451, ptr readonly %1, ptr %.457) #0
+  %cond.i11 = icmp eq i32 %.10.i10, 0
+  br i1 %cond.i11, label %flow.exit14, label %entry.if.i12, !prof !24
+
+entry.if.i12:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit14:
   %.466 = getelementptr double, ptr %arg.x, i64 %.24
   %.469 = getelementptr double, ptr %arg.out, i64 %.24
   %.475 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.471, ptr nonnull %excinfo.9, ptr %.466, ptr %.469, i64 %.31)
   switch i32 %.475, label %common.ret [
     i32 -2, label %B820.endif
     i32 0, label %B820.endif
-  ], !prof !9
+  ], !prof !8
 
-B1058:                                            ; preds = %B820.endif.endif
+B1058:
   %.559 = call i32 @_ZN18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.555, ptr nonnull %excinfo.11, ptr nonnull %arg.r, ptr %arg.x, double %end.2.0, ptr %arg.out)
   switch i32 %.559, label %B1058.if.if [
     i32 -2, label %common.ret
     i32 0, label %common.ret
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B1058.if.if, %B820.endif.endif, %B820.endif, %B1058, %B1058, %B820, %B784, %B656, %B620, %B486, %B450, %B384, %B266, %B92
-  %excinfo.sink = phi ptr [ %excinfo, %B1058.if.if ], [ %excinfo, %B820.endif ], [ %excinfo, %B820 ], [ %excinfo, %B784 ], [ %excinfo, %B656 ], [ %excinfo, %B620 ], [ %excinfo, %B486 ], [ %excinfo, %B450 ], [ %excinfo, %B384 ], [ %excinfo, %B266 ], [ %excinfo, %B92 ], [ %retptr, %B820.endif.endif ], [ %retptr, %B1058 ], [ %retptr, %B1058 ]
-  %common.ret.op = phi i32 [ %.559, %B1058.if.if ], [ %.519, %B820.endif ], [ %.475, %B820 ], [ %.424, %B784 ], [ %.390, %B656 ], [ %.341, %B620 ], [ %.307, %B486 ], [ %.261, %B450 ], [ %.227, %B384 ], [ %.158, %B266 ], [ %.95, %B92 ], [ 0, %B820.endif.endif ], [ 0, %B1058 ], [ 0, %B1058 ]
+common.ret:
+  %excinfo.sink = phi ptr [ %excinfo, %B1058.if.if ], [ %excinfo, %B820.endif ], [ %excinfo, %flow.exit14 ], [ %excinfo, %B784 ], [ %excinfo, %flow.exit7 ], [ %excinfo, %B620 ], [ %excinfo, %flow.exit ], [ %excinfo, %B450 ], [ %excinfo, %B384 ], [ %excinfo, %B266 ], [ %excinfo, %B92 ], [ %retptr, %B820.endif.endif ], [ %retptr, %B1058 ], [ %retptr, %B1058 ]
+  %common.ret.op = phi i32 [ %.559, %B1058.if.if ], [ %.519, %B820.endif ], [ %.475, %flow.exit14 ], [ %.424, %B784 ], [ %.390, %flow.exit7 ], [ %.341, %B620 ], [ %.307, %flow.exit ], [ %.261, %B450 ], [ %.227, %B384 ], [ %.158, %B266 ], [ %.95, %B92 ], [ 0, %B820.endif.endif ], [ 0, %B1058 ], [ 0, %B1058 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B266.endif:                                       ; preds = %B266, %B266
-  %sunkaddr = getelementptr inbounds i8, ptr %.154, i64 24
+B266.endif:
+  %sunkaddr = getelementptr inbounds nuw i8, ptr %.154, i64 24
   %.168.fca.3.load = load double, ptr %sunkaddr, align 8
-  %sunkaddr1 = getelementptr inbounds i8, ptr %.154, i64 16
+  %sunkaddr1 = getelementptr inbounds nuw i8, ptr %.154, i64 16
   %.168.fca.2.load = load double, ptr %sunkaddr1, align 8
-  %sunkaddr2 = getelementptr inbounds i8, ptr %.154, i64 8
+  %sunkaddr2 = getelementptr inbounds nuw i8, ptr %.154, i64 8
   %.168.fca.1.load = load double, ptr %sunkaddr2, align 8
   %.201 = getelementptr i8, ptr %arg.r, i64 584
   %.202 = load i64, ptr %.201, align 8
   %.203 = inttoptr i64 %.202 to ptr
-  %.208 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %arg.x, double %arg.h, ptr %.203)
+  %.11.i = call i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr nonnull %.7.i, ptr nonnull %excinfo.i15, ptr nonnull %arg.r, double %arg.t, ptr readonly %arg.x, double %arg.h, ptr %.203) #0
+  %cond.i16 = icmp eq i32 %.11.i, 0
+  br i1 %cond.i16, label %lagging.exit, label %entry.if.i17, !prof !24
+
+entry.if.i17:
+  tail call void @llvm.trap()
+  unreachable
+
+lagging.exit:
   %.211 = load i64, ptr %.201, align 8
   %.212 = inttoptr i64 %.211 to ptr
   br label %B384
 
-B384.endif:                                       ; preds = %B384, %B384
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 160
-  %.249 = load i64, ptr %sunkaddr3, align 8
+B384.endif:
+  %.249 = load i64, ptr %.143, align 8
   %.250 = icmp sgt i64 %.249, 0
   br i1 %.250, label %B450, label %B486
 
-B486.endif:                                       ; preds = %B486, %B486
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 160
-  %.329 = load i64, ptr %sunkaddr4, align 8
+B486.endif:
+  %.329 = load i64, ptr %.143, align 8
   %.330 = icmp sgt i64 %.329, 0
   br i1 %.330, label %B620, label %B656
 
-B656.endif:                                       ; preds = %B656, %B656
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 160
-  %.412 = load i64, ptr %sunkaddr5, align 8
+B656.endif:
+  %.412 = load i64, ptr %.143, align 8
   %.413 = icmp sgt i64 %.412, 0
   br i1 %.413, label %B784, label %B820
 
-B820.endif:                                       ; preds = %B820, %B820
-  %sunkaddr6 = getelementptr i8, ptr %arg.r, i64 592
-  %.500 = load i64, ptr %sunkaddr6, align 8
+B820.endif:
+  %.500 = load i64, ptr %.287, align 8
   %.501 = inttoptr i64 %.500 to ptr
-  %sunkaddr7 = getelementptr i8, ptr %arg.r, i64 600
-  %.504 = load i64, ptr %sunkaddr7, align 8
+  %.504 = load i64, ptr %.371, align 8
   %.505 = inttoptr i64 %.504 to ptr
-  %sunkaddr8 = getelementptr i8, ptr %arg.r, i64 608
-  %.508 = load i64, ptr %sunkaddr8, align 8
+  %.508 = load i64, ptr %.455, align 8
   %.509 = inttoptr i64 %.508 to ptr
   %.519 = call i32 @_ZN18biped_adrc_kernels7rk4_sumB3v25B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2a10float64_2a10float64_2a10float64_2ax(ptr nonnull %.515, ptr nonnull %excinfo.10, ptr %arg.x, double %arg.h, ptr %dx.2.0, ptr %.501, ptr %.505, ptr %.509, ptr %arg.out, i64 %.24)
   switch i32 %.519, label %common.ret [
     i32 -2, label %B820.endif.endif
     i32 0, label %B820.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B820.endif.endif:                                 ; preds = %B820.endif, %B820.endif
-  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 160
-  %.547 = load i64, ptr %sunkaddr9, align 8
+B820.endif.endif:
+  %.547 = load i64, ptr %.143, align 8
   %.548 = icmp sgt i64 %.547, 0
   br i1 %.548, label %B1058, label %common.ret
 
-B1058.if.if:                                      ; preds = %B1058
+B1058.if.if:
   br label %common.ret
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(argmem: readwrite)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.x, double %arg.h, ptr readonly %arg.dx, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #1 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.x, double %arg.h, ptr readonly %arg.dx, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #0 {
 B0.endif:
   %.9840.not = icmp slt i64 %arg.size, 1
   br i1 %.9840.not, label %B86, label %iter.check
 
-iter.check:                                       ; preds = %B0.endif
+iter.check:
   %min.iters.check = icmp samesign ult i64 %arg.size, 4
   br i1 %min.iters.check, label %B36.preheader, label %vector.memcheck
 
-vector.memcheck:                                  ; preds = %iter.check
+vector.memcheck:
   %0 = ptrtoint ptr %arg.out to i64
   %1 = ptrtoint ptr %arg.x to i64
   %2 = ptrtoint ptr %arg.dx to i64
@@ -3063,53 +2494,39 @@ vector.memcheck:                                  ; preds = %iter.check
   %conflict.rdx = or i1 %diff.check, %diff.check4
   br i1 %conflict.rdx, label %B36.preheader, label %vector.main.loop.iter.check
 
-vector.main.loop.iter.check:                      ; preds = %vector.memcheck
-  %const = bitcast i64 9223372036854775792 to i64
+vector.main.loop.iter.check:
   %min.iters.check5 = icmp samesign ult i64 %arg.size, 16
   br i1 %min.iters.check5, label %vector.main.loop.iter.check.vec.epilog.ph_crit_edge, label %vector.ph
 
-vector.main.loop.iter.check.vec.epilog.ph_crit_edge: ; preds = %vector.main.loop.iter.check
+vector.main.loop.iter.check.vec.epilog.ph_crit_edge:
   %.pre = insertelement <4 x double> poison, double %arg.h, i64 0
   %.pre3 = shufflevector <4 x double> %.pre, <4 x double> poison, <4 x i32> zeroinitializer
   br label %vec.epilog.ph
 
-vector.ph:                                        ; preds = %vector.main.loop.iter.check
-  %n.vec = and i64 %arg.size, %const
+vector.ph:
+  %n.vec = and i64 %arg.size, 9223372036854775792
   %broadcast.splatinsert = insertelement <4 x double> poison, double %arg.h, i64 0
   %broadcast.splat = shufflevector <4 x double> %broadcast.splatinsert, <4 x double> poison, <4 x i32> zeroinitializer
   br label %vector.body
 
-vector.body:                                      ; preds = %vector.body, %vector.ph
+vector.body:
   %index = phi i64 [ 0, %vector.ph ], [ %index.next, %vector.body ]
-  %sunkaddr84 = mul i64 %index, 8
+  %sunkaddr84 = shl i64 %index, 3
   %sunkaddr85 = getelementptr i8, ptr %arg.x, i64 %sunkaddr84
   %wide.load = load <4 x double>, ptr %sunkaddr85, align 8
-  %sunkaddr86 = mul i64 %index, 8
-  %sunkaddr87 = getelementptr i8, ptr %arg.x, i64 %sunkaddr86
-  %sunkaddr88 = getelementptr i8, ptr %sunkaddr87, i64 32
+  %sunkaddr88 = getelementptr i8, ptr %sunkaddr85, i64 32
   %wide.load6 = load <4 x double>, ptr %sunkaddr88, align 8
-  %sunkaddr89 = mul i64 %index, 8
-  %sunkaddr90 = getelementptr i8, ptr %arg.x, i64 %sunkaddr89
-  %sunkaddr91 = getelementptr i8, ptr %sunkaddr90, i64 64
+  %sunkaddr91 = getelementptr i8, ptr %sunkaddr85, i64 64
   %wide.load7 = load <4 x double>, ptr %sunkaddr91, align 8
-  %sunkaddr = mul i64 %index, 8
-  %sunkaddr92 = getelementptr i8, ptr %arg.x, i64 %sunkaddr
-  %sunkaddr93 = getelementptr i8, ptr %sunkaddr92, i64 96
+  %sunkaddr93 = getelementptr i8, ptr %sunkaddr85, i64 96
   %wide.load8 = load <4 x double>, ptr %sunkaddr93, align 8
-  %sunkaddr94 = mul i64 %index, 8
-  %sunkaddr95 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr94
+  %sunkaddr95 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr84
   %wide.load9 = load <4 x double>, ptr %sunkaddr95, align 8
-  %sunkaddr96 = mul i64 %index, 8
-  %sunkaddr97 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr96
-  %sunkaddr98 = getelementptr i8, ptr %sunkaddr97, i64 32
+  %sunkaddr98 = getelementptr i8, ptr %sunkaddr95, i64 32
   %wide.load10 = load <4 x double>, ptr %sunkaddr98, align 8
-  %sunkaddr99 = mul i64 %index, 8
-  %sunkaddr100 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr99
-  %sunkaddr101 = getelementptr i8, ptr %sunkaddr100, i64 64
+  %sunkaddr101 = getelementptr i8, ptr %sunkaddr95, i64 64
   %wide.load11 = load <4 x double>, ptr %sunkaddr101, align 8
-  %sunkaddr102 = mul i64 %index, 8
-  %sunkaddr103 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr102
-  %sunkaddr104 = getelementptr i8, ptr %sunkaddr103, i64 96
+  %sunkaddr104 = getelementptr i8, ptr %sunkaddr95, i64 96
   %wide.load12 = load <4 x double>, ptr %sunkaddr104, align 8
   %5 = fmul <4 x double> %broadcast.splat, %wide.load9
   %6 = fmul <4 x double> %broadcast.splat, %wide.load10
@@ -3119,42 +2536,34 @@ vector.body:                                      ; preds = %vector.body, %vecto
   %10 = fadd <4 x double> %wide.load6, %6
   %11 = fadd <4 x double> %wide.load7, %7
   %12 = fadd <4 x double> %wide.load8, %8
-  %sunkaddr105 = mul i64 %index, 8
-  %sunkaddr106 = getelementptr i8, ptr %arg.out, i64 %sunkaddr105
+  %sunkaddr106 = getelementptr i8, ptr %arg.out, i64 %sunkaddr84
   store <4 x double> %9, ptr %sunkaddr106, align 8
-  %sunkaddr107 = mul i64 %index, 8
-  %sunkaddr108 = getelementptr i8, ptr %arg.out, i64 %sunkaddr107
-  %sunkaddr109 = getelementptr i8, ptr %sunkaddr108, i64 32
+  %sunkaddr109 = getelementptr i8, ptr %sunkaddr106, i64 32
   store <4 x double> %10, ptr %sunkaddr109, align 8
-  %sunkaddr110 = mul i64 %index, 8
-  %sunkaddr111 = getelementptr i8, ptr %arg.out, i64 %sunkaddr110
-  %sunkaddr112 = getelementptr i8, ptr %sunkaddr111, i64 64
+  %sunkaddr112 = getelementptr i8, ptr %sunkaddr106, i64 64
   store <4 x double> %11, ptr %sunkaddr112, align 8
-  %sunkaddr113 = mul i64 %index, 8
-  %sunkaddr114 = getelementptr i8, ptr %arg.out, i64 %sunkaddr113
-  %sunkaddr115 = getelementptr i8, ptr %sunkaddr114, i64 96
+  %sunkaddr115 = getelementptr i8, ptr %sunkaddr106, i64 96
   store <4 x double> %12, ptr %sunkaddr115, align 8
   %index.next = add nuw nsw i64 %index, 16
   %13 = icmp eq i64 %n.vec, %index.next
-  br i1 %13, label %middle.block, label %vector.body, !llvm.loop !71
+  br i1 %13, label %middle.block, label %vector.body, !llvm.loop !74
 
-middle.block:                                     ; preds = %vector.body
+middle.block:
   %cmp.n = icmp eq i64 %arg.size, %n.vec
   br i1 %cmp.n, label %B86, label %vec.epilog.iter.check
 
-vec.epilog.iter.check:                            ; preds = %middle.block
+vec.epilog.iter.check:
   %14 = and i64 %arg.size, 12
   %min.epilog.iters.check = icmp eq i64 %14, 0
-  br i1 %min.epilog.iters.check, label %B36.preheader, label %vec.epilog.ph, !prof !21
+  br i1 %min.epilog.iters.check, label %B36.preheader, label %vec.epilog.ph, !prof !20
 
-vec.epilog.ph:                                    ; preds = %vec.epilog.iter.check, %vector.main.loop.iter.check.vec.epilog.ph_crit_edge
+vec.epilog.ph:
   %broadcast.splat16.pre-phi = phi <4 x double> [ %.pre3, %vector.main.loop.iter.check.vec.epilog.ph_crit_edge ], [ %broadcast.splat, %vec.epilog.iter.check ]
   %vec.epilog.resume.val = phi i64 [ 0, %vector.main.loop.iter.check.vec.epilog.ph_crit_edge ], [ %n.vec, %vec.epilog.iter.check ]
-  %const_mat = add i64 %const, 12
-  %n.vec14 = and i64 %arg.size, %const_mat
+  %n.vec14 = and i64 %arg.size, 9223372036854775804
   br label %vec.epilog.vector.body
 
-vec.epilog.vector.body:                           ; preds = %vec.epilog.vector.body, %vec.epilog.ph
+vec.epilog.vector.body:
   %index17 = phi i64 [ %vec.epilog.resume.val, %vec.epilog.ph ], [ %index.next20, %vec.epilog.vector.body ]
   %15 = shl i64 %index17, 3
   %scevgep75 = getelementptr i8, ptr %arg.x, i64 %15
@@ -3163,186 +2572,134 @@ vec.epilog.vector.body:                           ; preds = %vec.epilog.vector.b
   %wide.load19 = load <4 x double>, ptr %scevgep74, align 8
   %16 = fmul <4 x double> %broadcast.splat16.pre-phi, %wide.load19
   %17 = fadd <4 x double> %wide.load18, %16
-  %18 = shl i64 %index17, 3
-  %scevgep55 = getelementptr i8, ptr %arg.out, i64 %18
+  %scevgep55 = getelementptr i8, ptr %arg.out, i64 %15
   store <4 x double> %17, ptr %scevgep55, align 8
   %index.next20 = add nuw i64 %index17, 4
-  %19 = icmp eq i64 %n.vec14, %index.next20
-  br i1 %19, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !72
+  %18 = icmp eq i64 %n.vec14, %index.next20
+  br i1 %18, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !75
 
-vec.epilog.middle.block:                          ; preds = %vec.epilog.vector.body
+vec.epilog.middle.block:
   %cmp.n21 = icmp eq i64 %arg.size, %n.vec14
   br i1 %cmp.n21, label %B86, label %B36.preheader
 
-B36.preheader:                                    ; preds = %vec.epilog.middle.block, %vec.epilog.iter.check, %vector.memcheck, %iter.check
+B36.preheader:
   %.1043941.ph = phi i64 [ 0, %iter.check ], [ 0, %vector.memcheck ], [ %n.vec, %vec.epilog.iter.check ], [ %n.vec14, %vec.epilog.middle.block ]
-  %20 = sub nsw i64 %arg.size, %.1043941.ph
-  %xtraiter = and i64 %20, 7
+  %19 = sub nsw i64 %arg.size, %.1043941.ph
+  %xtraiter = and i64 %19, 7
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
-  br i1 %lcmp.mod.not, label %B36.prol.loopexit, label %B36.prol.preheader
+  br i1 %lcmp.mod.not, label %B36.prol.loopexit, label %B36.prol
 
-B36.prol.preheader:                               ; preds = %B36.preheader
-  br label %B36.prol
-
-B36.prol:                                         ; preds = %B36.prol, %B36.prol.preheader
-  %lsr.iv = phi i64 [ %lsr.iv.next, %B36.prol ], [ %xtraiter, %B36.prol.preheader ]
-  %.1043941.prol = phi i64 [ %.111.prol, %B36.prol ], [ %.1043941.ph, %B36.prol.preheader ]
+B36.prol:
+  %lsr.iv = phi i64 [ %lsr.iv.next, %B36.prol ], [ %xtraiter, %B36.preheader ]
+  %.1043941.prol = phi i64 [ %.111.prol, %B36.prol ], [ %.1043941.ph, %B36.preheader ]
   %.111.prol = add nuw i64 %.1043941.prol, 1
-  %21 = shl i64 %.1043941.prol, 3
-  %scevgep72 = getelementptr i8, ptr %arg.x, i64 %21
+  %20 = shl i64 %.1043941.prol, 3
+  %scevgep72 = getelementptr i8, ptr %arg.x, i64 %20
   %.138.prol = load double, ptr %scevgep72, align 8
-  %scevgep71 = getelementptr i8, ptr %arg.dx, i64 %21
+  %scevgep71 = getelementptr i8, ptr %arg.dx, i64 %20
   %.141.prol = load double, ptr %scevgep71, align 8
   %.143.prol = fmul double %arg.h, %.141.prol
   %.144.prol = fadd double %.138.prol, %.143.prol
-  %22 = shl i64 %.1043941.prol, 3
-  %scevgep54 = getelementptr i8, ptr %arg.out, i64 %22
+  %scevgep54 = getelementptr i8, ptr %arg.out, i64 %20
   store double %.144.prol, ptr %scevgep54, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %prol.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %prol.iter.cmp.not, label %B36.prol.loopexit, label %B36.prol, !llvm.loop !73
+  br i1 %prol.iter.cmp.not, label %B36.prol.loopexit, label %B36.prol, !llvm.loop !76
 
-B36.prol.loopexit:                                ; preds = %B36.prol, %B36.preheader
+B36.prol.loopexit:
   %.1043941.unr = phi i64 [ %.1043941.ph, %B36.preheader ], [ %.111.prol, %B36.prol ]
-  %23 = sub nsw i64 %.1043941.ph, %arg.size
-  %24 = icmp ugt i64 %23, -8
-  br i1 %24, label %B86, label %B36.preheader6
+  %21 = sub nsw i64 %.1043941.ph, %arg.size
+  %22 = icmp ugt i64 %21, -8
+  br i1 %22, label %B86, label %B36
 
-B36.preheader6:                                   ; preds = %B36.prol.loopexit
-  br label %B36
-
-B36:                                              ; preds = %B36, %B36.preheader6
-  %.1043941 = phi i64 [ %.111.7, %B36 ], [ %.1043941.unr, %B36.preheader6 ]
-  %sunkaddr116 = mul i64 %.1043941, 8
+B36:
+  %.1043941 = phi i64 [ %.111.7, %B36 ], [ %.1043941.unr, %B36.prol.loopexit ]
+  %sunkaddr116 = shl i64 %.1043941, 3
   %sunkaddr117 = getelementptr i8, ptr %arg.x, i64 %sunkaddr116
   %.138 = load double, ptr %sunkaddr117, align 8
-  %sunkaddr118 = mul i64 %.1043941, 8
-  %sunkaddr119 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr118
+  %sunkaddr119 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr116
   %.141 = load double, ptr %sunkaddr119, align 8
   %.143 = fmul double %arg.h, %.141
   %.144 = fadd double %.138, %.143
-  %sunkaddr120 = mul i64 %.1043941, 8
-  %sunkaddr121 = getelementptr i8, ptr %arg.out, i64 %sunkaddr120
+  %sunkaddr121 = getelementptr i8, ptr %arg.out, i64 %sunkaddr116
   store double %.144, ptr %sunkaddr121, align 8
-  %sunkaddr122 = mul i64 %.1043941, 8
-  %sunkaddr123 = getelementptr i8, ptr %arg.x, i64 %sunkaddr122
-  %sunkaddr124 = getelementptr i8, ptr %sunkaddr123, i64 8
+  %sunkaddr124 = getelementptr i8, ptr %sunkaddr117, i64 8
   %.138.1 = load double, ptr %sunkaddr124, align 8
-  %sunkaddr125 = mul i64 %.1043941, 8
-  %sunkaddr126 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr125
-  %sunkaddr127 = getelementptr i8, ptr %sunkaddr126, i64 8
+  %sunkaddr127 = getelementptr i8, ptr %sunkaddr119, i64 8
   %.141.1 = load double, ptr %sunkaddr127, align 8
   %.143.1 = fmul double %arg.h, %.141.1
   %.144.1 = fadd double %.138.1, %.143.1
-  %sunkaddr128 = mul i64 %.1043941, 8
-  %sunkaddr129 = getelementptr i8, ptr %arg.out, i64 %sunkaddr128
-  %sunkaddr130 = getelementptr i8, ptr %sunkaddr129, i64 8
+  %sunkaddr130 = getelementptr i8, ptr %sunkaddr121, i64 8
   store double %.144.1, ptr %sunkaddr130, align 8
-  %sunkaddr131 = mul i64 %.1043941, 8
-  %sunkaddr132 = getelementptr i8, ptr %arg.x, i64 %sunkaddr131
-  %sunkaddr133 = getelementptr i8, ptr %sunkaddr132, i64 16
+  %sunkaddr133 = getelementptr i8, ptr %sunkaddr117, i64 16
   %.138.2 = load double, ptr %sunkaddr133, align 8
-  %sunkaddr134 = mul i64 %.1043941, 8
-  %sunkaddr135 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr134
-  %sunkaddr136 = getelementptr i8, ptr %sunkaddr135, i64 16
+  %sunkaddr136 = getelementptr i8, ptr %sunkaddr119, i64 16
   %.141.2 = load double, ptr %sunkaddr136, align 8
   %.143.2 = fmul double %arg.h, %.141.2
   %.144.2 = fadd double %.138.2, %.143.2
-  %sunkaddr137 = mul i64 %.1043941, 8
-  %sunkaddr138 = getelementptr i8, ptr %arg.out, i64 %sunkaddr137
-  %sunkaddr139 = getelementptr i8, ptr %sunkaddr138, i64 16
+  %sunkaddr139 = getelementptr i8, ptr %sunkaddr121, i64 16
   store double %.144.2, ptr %sunkaddr139, align 8
-  %sunkaddr140 = mul i64 %.1043941, 8
-  %sunkaddr141 = getelementptr i8, ptr %arg.x, i64 %sunkaddr140
-  %sunkaddr142 = getelementptr i8, ptr %sunkaddr141, i64 24
+  %sunkaddr142 = getelementptr i8, ptr %sunkaddr117, i64 24
   %.138.3 = load double, ptr %sunkaddr142, align 8
-  %sunkaddr143 = mul i64 %.1043941, 8
-  %sunkaddr144 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr143
-  %sunkaddr145 = getelementptr i8, ptr %sunkaddr144, i64 24
+  %sunkaddr145 = getelementptr i8, ptr %sunkaddr119, i64 24
   %.141.3 = load double, ptr %sunkaddr145, align 8
   %.143.3 = fmul double %arg.h, %.141.3
   %.144.3 = fadd double %.138.3, %.143.3
-  %sunkaddr146 = mul i64 %.1043941, 8
-  %sunkaddr147 = getelementptr i8, ptr %arg.out, i64 %sunkaddr146
-  %sunkaddr148 = getelementptr i8, ptr %sunkaddr147, i64 24
+  %sunkaddr148 = getelementptr i8, ptr %sunkaddr121, i64 24
   store double %.144.3, ptr %sunkaddr148, align 8
-  %sunkaddr149 = mul i64 %.1043941, 8
-  %sunkaddr150 = getelementptr i8, ptr %arg.x, i64 %sunkaddr149
-  %sunkaddr151 = getelementptr i8, ptr %sunkaddr150, i64 32
+  %sunkaddr151 = getelementptr i8, ptr %sunkaddr117, i64 32
   %.138.4 = load double, ptr %sunkaddr151, align 8
-  %sunkaddr152 = mul i64 %.1043941, 8
-  %sunkaddr153 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr152
-  %sunkaddr154 = getelementptr i8, ptr %sunkaddr153, i64 32
+  %sunkaddr154 = getelementptr i8, ptr %sunkaddr119, i64 32
   %.141.4 = load double, ptr %sunkaddr154, align 8
   %.143.4 = fmul double %arg.h, %.141.4
   %.144.4 = fadd double %.138.4, %.143.4
-  %sunkaddr155 = mul i64 %.1043941, 8
-  %sunkaddr156 = getelementptr i8, ptr %arg.out, i64 %sunkaddr155
-  %sunkaddr157 = getelementptr i8, ptr %sunkaddr156, i64 32
+  %sunkaddr157 = getelementptr i8, ptr %sunkaddr121, i64 32
   store double %.144.4, ptr %sunkaddr157, align 8
-  %sunkaddr158 = mul i64 %.1043941, 8
-  %sunkaddr159 = getelementptr i8, ptr %arg.x, i64 %sunkaddr158
-  %sunkaddr160 = getelementptr i8, ptr %sunkaddr159, i64 40
+  %sunkaddr160 = getelementptr i8, ptr %sunkaddr117, i64 40
   %.138.5 = load double, ptr %sunkaddr160, align 8
-  %sunkaddr161 = mul i64 %.1043941, 8
-  %sunkaddr162 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr161
-  %sunkaddr163 = getelementptr i8, ptr %sunkaddr162, i64 40
+  %sunkaddr163 = getelementptr i8, ptr %sunkaddr119, i64 40
   %.141.5 = load double, ptr %sunkaddr163, align 8
   %.143.5 = fmul double %arg.h, %.141.5
   %.144.5 = fadd double %.138.5, %.143.5
-  %sunkaddr164 = mul i64 %.1043941, 8
-  %sunkaddr165 = getelementptr i8, ptr %arg.out, i64 %sunkaddr164
-  %sunkaddr166 = getelementptr i8, ptr %sunkaddr165, i64 40
+  %sunkaddr166 = getelementptr i8, ptr %sunkaddr121, i64 40
   store double %.144.5, ptr %sunkaddr166, align 8
-  %sunkaddr167 = mul i64 %.1043941, 8
-  %sunkaddr168 = getelementptr i8, ptr %arg.x, i64 %sunkaddr167
-  %sunkaddr169 = getelementptr i8, ptr %sunkaddr168, i64 48
+  %sunkaddr169 = getelementptr i8, ptr %sunkaddr117, i64 48
   %.138.6 = load double, ptr %sunkaddr169, align 8
-  %sunkaddr170 = mul i64 %.1043941, 8
-  %sunkaddr171 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr170
-  %sunkaddr172 = getelementptr i8, ptr %sunkaddr171, i64 48
+  %sunkaddr172 = getelementptr i8, ptr %sunkaddr119, i64 48
   %.141.6 = load double, ptr %sunkaddr172, align 8
   %.143.6 = fmul double %arg.h, %.141.6
   %.144.6 = fadd double %.138.6, %.143.6
-  %sunkaddr173 = mul i64 %.1043941, 8
-  %sunkaddr174 = getelementptr i8, ptr %arg.out, i64 %sunkaddr173
-  %sunkaddr175 = getelementptr i8, ptr %sunkaddr174, i64 48
+  %sunkaddr175 = getelementptr i8, ptr %sunkaddr121, i64 48
   store double %.144.6, ptr %sunkaddr175, align 8
   %.111.7 = add nuw nsw i64 %.1043941, 8
-  %sunkaddr176 = mul i64 %.1043941, 8
-  %sunkaddr177 = getelementptr i8, ptr %arg.x, i64 %sunkaddr176
-  %sunkaddr178 = getelementptr i8, ptr %sunkaddr177, i64 56
+  %sunkaddr178 = getelementptr i8, ptr %sunkaddr117, i64 56
   %.138.7 = load double, ptr %sunkaddr178, align 8
-  %sunkaddr179 = mul i64 %.1043941, 8
-  %sunkaddr180 = getelementptr i8, ptr %arg.dx, i64 %sunkaddr179
-  %sunkaddr181 = getelementptr i8, ptr %sunkaddr180, i64 56
+  %sunkaddr181 = getelementptr i8, ptr %sunkaddr119, i64 56
   %.141.7 = load double, ptr %sunkaddr181, align 8
   %.143.7 = fmul double %arg.h, %.141.7
   %.144.7 = fadd double %.138.7, %.143.7
-  %sunkaddr182 = mul i64 %.1043941, 8
-  %sunkaddr183 = getelementptr i8, ptr %arg.out, i64 %sunkaddr182
-  %sunkaddr184 = getelementptr i8, ptr %sunkaddr183, i64 56
+  %sunkaddr184 = getelementptr i8, ptr %sunkaddr121, i64 56
   store double %.144.7, ptr %sunkaddr184, align 8
   %exitcond.not.7 = icmp eq i64 %arg.size, %.111.7
-  br i1 %exitcond.not.7, label %B86, label %B36, !llvm.loop !74
+  br i1 %exitcond.not.7, label %B86, label %B36, !llvm.loop !77
 
-B86:                                              ; preds = %B36, %B36.prol.loopexit, %vec.epilog.middle.block, %middle.block, %B0.endif
+B86:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(argmem: readwrite)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels7rk4_sumB3v25B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2a10float64_2a10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.x, double %arg.h, ptr readonly %arg.k1, ptr readonly %arg.k2, ptr readonly %arg.k3, ptr readonly %arg.k4, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #1 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels7rk4_sumB3v25B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2a10float64_2a10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.x, double %arg.h, ptr readonly %arg.k1, ptr readonly %arg.k2, ptr readonly %arg.k3, ptr readonly %arg.k4, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #0 {
 B0.endif:
   %.10741.not = icmp slt i64 %arg.size, 1
   br i1 %.10741.not, label %B156, label %iter.check
 
-iter.check:                                       ; preds = %B0.endif
+iter.check:
   %.168 = fdiv double %arg.h, 6.000000e+00
   %min.iters.check = icmp samesign ult i64 %arg.size, 4
   br i1 %min.iters.check, label %B36.endif.preheader, label %vector.memcheck
 
-vector.memcheck:                                  ; preds = %iter.check
+vector.memcheck:
   %0 = ptrtoint ptr %arg.out to i64
   %1 = ptrtoint ptr %arg.k1 to i64
   %2 = ptrtoint ptr %arg.k2 to i64
@@ -3365,68 +2722,47 @@ vector.memcheck:                                  ; preds = %iter.check
   %conflict.rdx13 = or i1 %diff.check12, %conflict.rdx10
   br i1 %conflict.rdx13, label %B36.endif.preheader, label %vector.main.loop.iter.check
 
-vector.main.loop.iter.check:                      ; preds = %vector.memcheck
-  %const = bitcast i64 9223372036854775792 to i64
+vector.main.loop.iter.check:
   %min.iters.check14 = icmp samesign ult i64 %arg.size, 16
   br i1 %min.iters.check14, label %vector.main.loop.iter.check.vec.epilog.ph_crit_edge, label %vector.ph
 
-vector.main.loop.iter.check.vec.epilog.ph_crit_edge: ; preds = %vector.main.loop.iter.check
+vector.main.loop.iter.check.vec.epilog.ph_crit_edge:
   %.pre = insertelement <4 x double> poison, double %.168, i64 0
   %.pre1 = shufflevector <4 x double> %.pre, <4 x double> poison, <4 x i32> zeroinitializer
   br label %vec.epilog.ph
 
-vector.ph:                                        ; preds = %vector.main.loop.iter.check
-  %n.vec = and i64 %arg.size, %const
+vector.ph:
+  %n.vec = and i64 %arg.size, 9223372036854775792
   %broadcast.splatinsert = insertelement <4 x double> poison, double %.168, i64 0
   %broadcast.splat = shufflevector <4 x double> %broadcast.splatinsert, <4 x double> poison, <4 x i32> zeroinitializer
   br label %vector.body
 
-vector.body:                                      ; preds = %vector.body, %vector.ph
+vector.body:
   %index = phi i64 [ 0, %vector.ph ], [ %index.next, %vector.body ]
-  %sunkaddr108 = mul i64 %index, 8
+  %sunkaddr108 = shl i64 %index, 3
   %sunkaddr109 = getelementptr i8, ptr %arg.k1, i64 %sunkaddr108
   %wide.load = load <4 x double>, ptr %sunkaddr109, align 8
-  %sunkaddr110 = mul i64 %index, 8
-  %sunkaddr111 = getelementptr i8, ptr %arg.k1, i64 %sunkaddr110
-  %sunkaddr112 = getelementptr i8, ptr %sunkaddr111, i64 32
+  %sunkaddr112 = getelementptr i8, ptr %sunkaddr109, i64 32
   %wide.load15 = load <4 x double>, ptr %sunkaddr112, align 8
-  %sunkaddr113 = mul i64 %index, 8
-  %sunkaddr114 = getelementptr i8, ptr %arg.k1, i64 %sunkaddr113
-  %sunkaddr115 = getelementptr i8, ptr %sunkaddr114, i64 64
+  %sunkaddr115 = getelementptr i8, ptr %sunkaddr109, i64 64
   %wide.load16 = load <4 x double>, ptr %sunkaddr115, align 8
-  %sunkaddr = mul i64 %index, 8
-  %sunkaddr116 = getelementptr i8, ptr %arg.k1, i64 %sunkaddr
-  %sunkaddr117 = getelementptr i8, ptr %sunkaddr116, i64 96
+  %sunkaddr117 = getelementptr i8, ptr %sunkaddr109, i64 96
   %wide.load17 = load <4 x double>, ptr %sunkaddr117, align 8
-  %sunkaddr118 = mul i64 %index, 8
-  %sunkaddr119 = getelementptr i8, ptr %arg.k2, i64 %sunkaddr118
+  %sunkaddr119 = getelementptr i8, ptr %arg.k2, i64 %sunkaddr108
   %wide.load18 = load <4 x double>, ptr %sunkaddr119, align 8
-  %sunkaddr120 = mul i64 %index, 8
-  %sunkaddr121 = getelementptr i8, ptr %arg.k2, i64 %sunkaddr120
-  %sunkaddr122 = getelementptr i8, ptr %sunkaddr121, i64 32
+  %sunkaddr122 = getelementptr i8, ptr %sunkaddr119, i64 32
   %wide.load19 = load <4 x double>, ptr %sunkaddr122, align 8
-  %sunkaddr123 = mul i64 %index, 8
-  %sunkaddr124 = getelementptr i8, ptr %arg.k2, i64 %sunkaddr123
-  %sunkaddr125 = getelementptr i8, ptr %sunkaddr124, i64 64
+  %sunkaddr125 = getelementptr i8, ptr %sunkaddr119, i64 64
   %wide.load20 = load <4 x double>, ptr %sunkaddr125, align 8
-  %sunkaddr126 = mul i64 %index, 8
-  %sunkaddr127 = getelementptr i8, ptr %arg.k2, i64 %sunkaddr126
-  %sunkaddr128 = getelementptr i8, ptr %sunkaddr127, i64 96
+  %sunkaddr128 = getelementptr i8, ptr %sunkaddr119, i64 96
   %wide.load21 = load <4 x double>, ptr %sunkaddr128, align 8
-  %sunkaddr129 = mul i64 %index, 8
-  %sunkaddr130 = getelementptr i8, ptr %arg.k3, i64 %sunkaddr129
+  %sunkaddr130 = getelementptr i8, ptr %arg.k3, i64 %sunkaddr108
   %wide.load22 = load <4 x double>, ptr %sunkaddr130, align 8
-  %sunkaddr131 = mul i64 %index, 8
-  %sunkaddr132 = getelementptr i8, ptr %arg.k3, i64 %sunkaddr131
-  %sunkaddr133 = getelementptr i8, ptr %sunkaddr132, i64 32
+  %sunkaddr133 = getelementptr i8, ptr %sunkaddr130, i64 32
   %wide.load23 = load <4 x double>, ptr %sunkaddr133, align 8
-  %sunkaddr134 = mul i64 %index, 8
-  %sunkaddr135 = getelementptr i8, ptr %arg.k3, i64 %sunkaddr134
-  %sunkaddr136 = getelementptr i8, ptr %sunkaddr135, i64 64
+  %sunkaddr136 = getelementptr i8, ptr %sunkaddr130, i64 64
   %wide.load24 = load <4 x double>, ptr %sunkaddr136, align 8
-  %sunkaddr137 = mul i64 %index, 8
-  %sunkaddr138 = getelementptr i8, ptr %arg.k3, i64 %sunkaddr137
-  %sunkaddr139 = getelementptr i8, ptr %sunkaddr138, i64 96
+  %sunkaddr139 = getelementptr i8, ptr %sunkaddr130, i64 96
   %wide.load25 = load <4 x double>, ptr %sunkaddr139, align 8
   %11 = fadd <4 x double> %wide.load18, %wide.load22
   %12 = fadd <4 x double> %wide.load19, %wide.load23
@@ -3440,39 +2776,25 @@ vector.body:                                      ; preds = %vector.body, %vecto
   %20 = fadd <4 x double> %wide.load15, %16
   %21 = fadd <4 x double> %wide.load16, %17
   %22 = fadd <4 x double> %wide.load17, %18
-  %sunkaddr140 = mul i64 %index, 8
-  %sunkaddr141 = getelementptr i8, ptr %arg.k4, i64 %sunkaddr140
+  %sunkaddr141 = getelementptr i8, ptr %arg.k4, i64 %sunkaddr108
   %wide.load26 = load <4 x double>, ptr %sunkaddr141, align 8
-  %sunkaddr142 = mul i64 %index, 8
-  %sunkaddr143 = getelementptr i8, ptr %arg.k4, i64 %sunkaddr142
-  %sunkaddr144 = getelementptr i8, ptr %sunkaddr143, i64 32
+  %sunkaddr144 = getelementptr i8, ptr %sunkaddr141, i64 32
   %wide.load27 = load <4 x double>, ptr %sunkaddr144, align 8
-  %sunkaddr145 = mul i64 %index, 8
-  %sunkaddr146 = getelementptr i8, ptr %arg.k4, i64 %sunkaddr145
-  %sunkaddr147 = getelementptr i8, ptr %sunkaddr146, i64 64
+  %sunkaddr147 = getelementptr i8, ptr %sunkaddr141, i64 64
   %wide.load28 = load <4 x double>, ptr %sunkaddr147, align 8
-  %sunkaddr148 = mul i64 %index, 8
-  %sunkaddr149 = getelementptr i8, ptr %arg.k4, i64 %sunkaddr148
-  %sunkaddr150 = getelementptr i8, ptr %sunkaddr149, i64 96
+  %sunkaddr150 = getelementptr i8, ptr %sunkaddr141, i64 96
   %wide.load29 = load <4 x double>, ptr %sunkaddr150, align 8
   %23 = fadd <4 x double> %19, %wide.load26
   %24 = fadd <4 x double> %20, %wide.load27
   %25 = fadd <4 x double> %21, %wide.load28
   %26 = fadd <4 x double> %22, %wide.load29
-  %sunkaddr151 = mul i64 %index, 8
-  %sunkaddr152 = getelementptr i8, ptr %arg.x, i64 %sunkaddr151
+  %sunkaddr152 = getelementptr i8, ptr %arg.x, i64 %sunkaddr108
   %wide.load30 = load <4 x double>, ptr %sunkaddr152, align 8
-  %sunkaddr153 = mul i64 %index, 8
-  %sunkaddr154 = getelementptr i8, ptr %arg.x, i64 %sunkaddr153
-  %sunkaddr155 = getelementptr i8, ptr %sunkaddr154, i64 32
+  %sunkaddr155 = getelementptr i8, ptr %sunkaddr152, i64 32
   %wide.load31 = load <4 x double>, ptr %sunkaddr155, align 8
-  %sunkaddr156 = mul i64 %index, 8
-  %sunkaddr157 = getelementptr i8, ptr %arg.x, i64 %sunkaddr156
-  %sunkaddr158 = getelementptr i8, ptr %sunkaddr157, i64 64
+  %sunkaddr158 = getelementptr i8, ptr %sunkaddr152, i64 64
   %wide.load32 = load <4 x double>, ptr %sunkaddr158, align 8
-  %sunkaddr159 = mul i64 %index, 8
-  %sunkaddr160 = getelementptr i8, ptr %arg.x, i64 %sunkaddr159
-  %sunkaddr161 = getelementptr i8, ptr %sunkaddr160, i64 96
+  %sunkaddr161 = getelementptr i8, ptr %sunkaddr152, i64 96
   %wide.load33 = load <4 x double>, ptr %sunkaddr161, align 8
   %27 = fmul <4 x double> %broadcast.splat, %23
   %28 = fmul <4 x double> %broadcast.splat, %24
@@ -3482,42 +2804,34 @@ vector.body:                                      ; preds = %vector.body, %vecto
   %32 = fadd <4 x double> %28, %wide.load31
   %33 = fadd <4 x double> %29, %wide.load32
   %34 = fadd <4 x double> %30, %wide.load33
-  %sunkaddr162 = mul i64 %index, 8
-  %sunkaddr163 = getelementptr i8, ptr %arg.out, i64 %sunkaddr162
+  %sunkaddr163 = getelementptr i8, ptr %arg.out, i64 %sunkaddr108
   store <4 x double> %31, ptr %sunkaddr163, align 8
-  %sunkaddr164 = mul i64 %index, 8
-  %sunkaddr165 = getelementptr i8, ptr %arg.out, i64 %sunkaddr164
-  %sunkaddr166 = getelementptr i8, ptr %sunkaddr165, i64 32
+  %sunkaddr166 = getelementptr i8, ptr %sunkaddr163, i64 32
   store <4 x double> %32, ptr %sunkaddr166, align 8
-  %sunkaddr167 = mul i64 %index, 8
-  %sunkaddr168 = getelementptr i8, ptr %arg.out, i64 %sunkaddr167
-  %sunkaddr169 = getelementptr i8, ptr %sunkaddr168, i64 64
+  %sunkaddr169 = getelementptr i8, ptr %sunkaddr163, i64 64
   store <4 x double> %33, ptr %sunkaddr169, align 8
-  %sunkaddr170 = mul i64 %index, 8
-  %sunkaddr171 = getelementptr i8, ptr %arg.out, i64 %sunkaddr170
-  %sunkaddr172 = getelementptr i8, ptr %sunkaddr171, i64 96
+  %sunkaddr172 = getelementptr i8, ptr %sunkaddr163, i64 96
   store <4 x double> %34, ptr %sunkaddr172, align 8
   %index.next = add nuw nsw i64 %index, 16
   %35 = icmp eq i64 %n.vec, %index.next
-  br i1 %35, label %middle.block, label %vector.body, !llvm.loop !75
+  br i1 %35, label %middle.block, label %vector.body, !llvm.loop !78
 
-middle.block:                                     ; preds = %vector.body
+middle.block:
   %cmp.n = icmp eq i64 %arg.size, %n.vec
   br i1 %cmp.n, label %B156, label %vec.epilog.iter.check
 
-vec.epilog.iter.check:                            ; preds = %middle.block
+vec.epilog.iter.check:
   %36 = and i64 %arg.size, 12
   %min.epilog.iters.check = icmp eq i64 %36, 0
-  br i1 %min.epilog.iters.check, label %B36.endif.preheader, label %vec.epilog.ph, !prof !21
+  br i1 %min.epilog.iters.check, label %B36.endif.preheader, label %vec.epilog.ph, !prof !20
 
-vec.epilog.ph:                                    ; preds = %vec.epilog.iter.check, %vector.main.loop.iter.check.vec.epilog.ph_crit_edge
+vec.epilog.ph:
   %broadcast.splat37.pre-phi = phi <4 x double> [ %.pre1, %vector.main.loop.iter.check.vec.epilog.ph_crit_edge ], [ %broadcast.splat, %vec.epilog.iter.check ]
   %vec.epilog.resume.val = phi i64 [ 0, %vector.main.loop.iter.check.vec.epilog.ph_crit_edge ], [ %n.vec, %vec.epilog.iter.check ]
-  %const_mat = add i64 %const, 12
-  %n.vec35 = and i64 %arg.size, %const_mat
+  %n.vec35 = and i64 %arg.size, 9223372036854775804
   br label %vec.epilog.vector.body
 
-vec.epilog.vector.body:                           ; preds = %vec.epilog.vector.body, %vec.epilog.ph
+vec.epilog.vector.body:
   %index38 = phi i64 [ %vec.epilog.resume.val, %vec.epilog.ph ], [ %index.next44, %vec.epilog.vector.body ]
   %37 = shl i64 %index38, 3
   %scevgep111 = getelementptr i8, ptr %arg.k1, i64 %37
@@ -3529,44 +2843,41 @@ vec.epilog.vector.body:                           ; preds = %vec.epilog.vector.b
   %38 = fadd <4 x double> %wide.load40, %wide.load41
   %39 = fmul <4 x double> %38, splat (double 2.000000e+00)
   %40 = fadd <4 x double> %wide.load39, %39
-  %41 = shl i64 %index38, 3
-  %scevgep44 = getelementptr i8, ptr %arg.k4, i64 %41
+  %scevgep44 = getelementptr i8, ptr %arg.k4, i64 %37
   %wide.load42 = load <4 x double>, ptr %scevgep44, align 8
-  %42 = fadd <4 x double> %wide.load42, %40
-  %43 = shl i64 %index38, 3
-  %scevgep43 = getelementptr i8, ptr %arg.x, i64 %43
+  %41 = fadd <4 x double> %wide.load42, %40
+  %scevgep43 = getelementptr i8, ptr %arg.x, i64 %37
   %wide.load43 = load <4 x double>, ptr %scevgep43, align 8
-  %44 = fmul <4 x double> %broadcast.splat37.pre-phi, %42
-  %45 = fadd <4 x double> %wide.load43, %44
-  %46 = shl i64 %index38, 3
-  %scevgep42 = getelementptr i8, ptr %arg.out, i64 %46
-  store <4 x double> %45, ptr %scevgep42, align 8
+  %42 = fmul <4 x double> %broadcast.splat37.pre-phi, %41
+  %43 = fadd <4 x double> %wide.load43, %42
+  %scevgep42 = getelementptr i8, ptr %arg.out, i64 %37
+  store <4 x double> %43, ptr %scevgep42, align 8
   %index.next44 = add nuw i64 %index38, 4
-  %47 = icmp eq i64 %n.vec35, %index.next44
-  br i1 %47, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !76
+  %44 = icmp eq i64 %n.vec35, %index.next44
+  br i1 %44, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !79
 
-vec.epilog.middle.block:                          ; preds = %vec.epilog.vector.body
+vec.epilog.middle.block:
   %cmp.n45 = icmp eq i64 %arg.size, %n.vec35
   br i1 %cmp.n45, label %B156, label %B36.endif.preheader
 
-B36.endif.preheader:                              ; preds = %vec.epilog.middle.block, %vec.epilog.iter.check, %vector.memcheck, %iter.check
+B36.endif.preheader:
   %.1134042.ph = phi i64 [ 0, %iter.check ], [ 0, %vector.memcheck ], [ %n.vec, %vec.epilog.iter.check ], [ %n.vec35, %vec.epilog.middle.block ]
   %xtraiter = and i64 %arg.size, 3
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B36.endif.prol.loopexit, label %B36.endif.prol.preheader
 
-B36.endif.prol.preheader:                         ; preds = %B36.endif.preheader
-  %48 = shl i64 %.1134042.ph, 3
-  %scevgep94 = getelementptr i8, ptr %arg.out, i64 %48
-  %scevgep96 = getelementptr i8, ptr %arg.x, i64 %48
-  %scevgep98 = getelementptr i8, ptr %arg.k4, i64 %48
-  %scevgep100 = getelementptr i8, ptr %arg.k3, i64 %48
-  %scevgep102 = getelementptr i8, ptr %arg.k2, i64 %48
-  %scevgep104 = getelementptr i8, ptr %arg.k1, i64 %48
-  %49 = shl nuw nsw i64 %xtraiter, 3
+B36.endif.prol.preheader:
+  %45 = shl i64 %.1134042.ph, 3
+  %scevgep94 = getelementptr i8, ptr %arg.out, i64 %45
+  %scevgep96 = getelementptr i8, ptr %arg.x, i64 %45
+  %scevgep98 = getelementptr i8, ptr %arg.k4, i64 %45
+  %scevgep100 = getelementptr i8, ptr %arg.k3, i64 %45
+  %scevgep102 = getelementptr i8, ptr %arg.k2, i64 %45
+  %scevgep104 = getelementptr i8, ptr %arg.k1, i64 %45
+  %46 = shl nuw nsw i64 %xtraiter, 3
   br label %B36.endif.prol
 
-B36.endif.prol:                                   ; preds = %B36.endif.prol, %B36.endif.prol.preheader
+B36.endif.prol:
   %lsr.iv34 = phi i64 [ %lsr.iv.next35, %B36.endif.prol ], [ 0, %B36.endif.prol.preheader ]
   %scevgep41 = getelementptr i8, ptr %scevgep104, i64 %lsr.iv34
   %.147.prol = load double, ptr %scevgep41, align 8
@@ -3587,124 +2898,98 @@ B36.endif.prol:                                   ; preds = %B36.endif.prol, %B3
   %scevgep36 = getelementptr i8, ptr %scevgep94, i64 %lsr.iv34
   store double %.170.prol, ptr %scevgep36, align 8
   %lsr.iv.next35 = add nuw nsw i64 %lsr.iv34, 8
-  %prol.iter.cmp.not = icmp eq i64 %49, %lsr.iv.next35
-  br i1 %prol.iter.cmp.not, label %B36.endif.prol.loopexit.loopexit, label %B36.endif.prol, !llvm.loop !77
+  %prol.iter.cmp.not = icmp eq i64 %46, %lsr.iv.next35
+  br i1 %prol.iter.cmp.not, label %B36.endif.prol.loopexit.loopexit, label %B36.endif.prol, !llvm.loop !80
 
-B36.endif.prol.loopexit.loopexit:                 ; preds = %B36.endif.prol
-  %50 = or disjoint i64 %xtraiter, %.1134042.ph
+B36.endif.prol.loopexit.loopexit:
+  %47 = or disjoint i64 %.1134042.ph, %xtraiter
   br label %B36.endif.prol.loopexit
 
-B36.endif.prol.loopexit:                          ; preds = %B36.endif.prol.loopexit.loopexit, %B36.endif.preheader
-  %.1134042.unr = phi i64 [ %.1134042.ph, %B36.endif.preheader ], [ %50, %B36.endif.prol.loopexit.loopexit ]
-  %51 = sub nsw i64 %.1134042.ph, %arg.size
-  %52 = icmp ugt i64 %51, -4
-  br i1 %52, label %B156, label %B36.endif.preheader46
+B36.endif.prol.loopexit:
+  %.1134042.unr = phi i64 [ %.1134042.ph, %B36.endif.preheader ], [ %47, %B36.endif.prol.loopexit.loopexit ]
+  %48 = sub nsw i64 %.1134042.ph, %arg.size
+  %49 = icmp ugt i64 %48, -4
+  br i1 %49, label %B156, label %B36.endif.preheader46
 
-B36.endif.preheader46:                            ; preds = %B36.endif.prol.loopexit
-  %53 = shl i64 %.1134042.unr, 3
-  %54 = add i64 %53, 24
-  %scevgep = getelementptr i8, ptr %arg.out, i64 %54
-  %scevgep54 = getelementptr i8, ptr %arg.x, i64 %54
-  %scevgep62 = getelementptr i8, ptr %arg.k4, i64 %54
-  %scevgep70 = getelementptr i8, ptr %arg.k3, i64 %54
-  %scevgep78 = getelementptr i8, ptr %arg.k2, i64 %54
-  %scevgep86 = getelementptr i8, ptr %arg.k1, i64 %54
-  %55 = add i64 %.1134042.ph, %xtraiter
-  %56 = sub i64 %arg.size, %55
+B36.endif.preheader46:
+  %50 = shl i64 %.1134042.unr, 3
+  %51 = add i64 %50, 24
+  %scevgep = getelementptr i8, ptr %arg.out, i64 %51
+  %scevgep54 = getelementptr i8, ptr %arg.x, i64 %51
+  %scevgep62 = getelementptr i8, ptr %arg.k4, i64 %51
+  %scevgep70 = getelementptr i8, ptr %arg.k3, i64 %51
+  %scevgep78 = getelementptr i8, ptr %arg.k2, i64 %51
+  %scevgep86 = getelementptr i8, ptr %arg.k1, i64 %51
+  %.neg = and i64 %arg.size, 9223372036854775804
+  %52 = sub nsw i64 %.neg, %.1134042.ph
   br label %B36.endif
 
-B156:                                             ; preds = %B36.endif, %B36.endif.prol.loopexit, %vec.epilog.middle.block, %middle.block, %B0.endif
+B156:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
-B36.endif:                                        ; preds = %B36.endif, %B36.endif.preheader46
+B36.endif:
   %lsr.iv = phi i64 [ 0, %B36.endif.preheader46 ], [ %lsr.iv.next, %B36.endif ]
-  %57 = shl i64 %lsr.iv, 3
-  %scevgep90 = getelementptr i8, ptr %scevgep86, i64 %57
+  %53 = shl i64 %lsr.iv, 3
+  %scevgep90 = getelementptr i8, ptr %scevgep86, i64 %53
   %scevgep91 = getelementptr i8, ptr %scevgep90, i64 -24
   %.147 = load double, ptr %scevgep91, align 8
-  %scevgep82 = getelementptr i8, ptr %scevgep78, i64 %57
+  %scevgep82 = getelementptr i8, ptr %scevgep78, i64 %53
   %scevgep83 = getelementptr i8, ptr %scevgep82, i64 -24
   %.150 = load double, ptr %scevgep83, align 8
-  %58 = shl i64 %lsr.iv, 3
-  %scevgep20 = getelementptr i8, ptr %scevgep70, i64 %58
+  %scevgep20 = getelementptr i8, ptr %scevgep70, i64 %53
   %scevgep25 = getelementptr i8, ptr %scevgep20, i64 -24
   %.153 = load double, ptr %scevgep25, align 8
   %.154 = fadd double %.150, %.153
   %.155 = fmul double %.154, 2.000000e+00
   %.156 = fadd double %.147, %.155
-  %59 = shl i64 %lsr.iv, 3
-  %scevgep14 = getelementptr i8, ptr %scevgep62, i64 %59
+  %scevgep14 = getelementptr i8, ptr %scevgep62, i64 %53
   %scevgep19 = getelementptr i8, ptr %scevgep14, i64 -24
   %.159 = load double, ptr %scevgep19, align 8
   %.160 = fadd double %.159, %.156
-  %60 = shl i64 %lsr.iv, 3
-  %scevgep8 = getelementptr i8, ptr %scevgep54, i64 %60
+  %scevgep8 = getelementptr i8, ptr %scevgep54, i64 %53
   %scevgep13 = getelementptr i8, ptr %scevgep8, i64 -24
   %.163 = load double, ptr %scevgep13, align 8
   %.169 = fmul double %.168, %.160
   %.170 = fadd double %.163, %.169
-  %61 = shl i64 %lsr.iv, 3
-  %scevgep2 = getelementptr i8, ptr %scevgep, i64 %61
+  %scevgep2 = getelementptr i8, ptr %scevgep, i64 %53
   %scevgep7 = getelementptr i8, ptr %scevgep2, i64 -24
   store double %.170, ptr %scevgep7, align 8
-  %scevgep32 = getelementptr i8, ptr %scevgep86, i64 %61
-  %scevgep33 = getelementptr i8, ptr %scevgep32, i64 -16
+  %scevgep33 = getelementptr i8, ptr %scevgep90, i64 -16
   %.147.1 = load double, ptr %scevgep33, align 8
-  %62 = shl i64 %lsr.iv, 3
-  %scevgep28 = getelementptr i8, ptr %scevgep78, i64 %62
-  %scevgep29 = getelementptr i8, ptr %scevgep28, i64 -16
+  %scevgep29 = getelementptr i8, ptr %scevgep82, i64 -16
   %.150.1 = load double, ptr %scevgep29, align 8
-  %63 = shl i64 %lsr.iv, 3
-  %scevgep23 = getelementptr i8, ptr %scevgep70, i64 %63
-  %scevgep24 = getelementptr i8, ptr %scevgep23, i64 -16
+  %scevgep24 = getelementptr i8, ptr %scevgep20, i64 -16
   %.153.1 = load double, ptr %scevgep24, align 8
   %.154.1 = fadd double %.150.1, %.153.1
   %.155.1 = fmul double %.154.1, 2.000000e+00
   %.156.1 = fadd double %.147.1, %.155.1
-  %64 = shl i64 %lsr.iv, 3
-  %scevgep17 = getelementptr i8, ptr %scevgep62, i64 %64
-  %scevgep18 = getelementptr i8, ptr %scevgep17, i64 -16
+  %scevgep18 = getelementptr i8, ptr %scevgep14, i64 -16
   %.159.1 = load double, ptr %scevgep18, align 8
   %.160.1 = fadd double %.159.1, %.156.1
-  %65 = shl i64 %lsr.iv, 3
-  %scevgep11 = getelementptr i8, ptr %scevgep54, i64 %65
-  %scevgep12 = getelementptr i8, ptr %scevgep11, i64 -16
+  %scevgep12 = getelementptr i8, ptr %scevgep8, i64 -16
   %.163.1 = load double, ptr %scevgep12, align 8
   %.169.1 = fmul double %.168, %.160.1
   %.170.1 = fadd double %.163.1, %.169.1
-  %66 = shl i64 %lsr.iv, 3
-  %scevgep5 = getelementptr i8, ptr %scevgep, i64 %66
-  %scevgep6 = getelementptr i8, ptr %scevgep5, i64 -16
+  %scevgep6 = getelementptr i8, ptr %scevgep2, i64 -16
   store double %.170.1, ptr %scevgep6, align 8
-  %scevgep30 = getelementptr i8, ptr %scevgep86, i64 %66
-  %scevgep31 = getelementptr i8, ptr %scevgep30, i64 -8
+  %scevgep31 = getelementptr i8, ptr %scevgep90, i64 -8
   %.147.2 = load double, ptr %scevgep31, align 8
-  %67 = shl i64 %lsr.iv, 3
-  %scevgep26 = getelementptr i8, ptr %scevgep78, i64 %67
-  %scevgep27 = getelementptr i8, ptr %scevgep26, i64 -8
+  %scevgep27 = getelementptr i8, ptr %scevgep82, i64 -8
   %.150.2 = load double, ptr %scevgep27, align 8
-  %68 = shl i64 %lsr.iv, 3
-  %scevgep21 = getelementptr i8, ptr %scevgep70, i64 %68
-  %scevgep22 = getelementptr i8, ptr %scevgep21, i64 -8
+  %scevgep22 = getelementptr i8, ptr %scevgep20, i64 -8
   %.153.2 = load double, ptr %scevgep22, align 8
   %.154.2 = fadd double %.150.2, %.153.2
   %.155.2 = fmul double %.154.2, 2.000000e+00
   %.156.2 = fadd double %.147.2, %.155.2
-  %69 = shl i64 %lsr.iv, 3
-  %scevgep15 = getelementptr i8, ptr %scevgep62, i64 %69
-  %scevgep16 = getelementptr i8, ptr %scevgep15, i64 -8
+  %scevgep16 = getelementptr i8, ptr %scevgep14, i64 -8
   %.159.2 = load double, ptr %scevgep16, align 8
   %.160.2 = fadd double %.159.2, %.156.2
-  %70 = shl i64 %lsr.iv, 3
-  %scevgep9 = getelementptr i8, ptr %scevgep54, i64 %70
-  %scevgep10 = getelementptr i8, ptr %scevgep9, i64 -8
+  %scevgep10 = getelementptr i8, ptr %scevgep8, i64 -8
   %.163.2 = load double, ptr %scevgep10, align 8
   %.169.2 = fmul double %.168, %.160.2
   %.170.2 = fadd double %.163.2, %.169.2
-  %71 = shl i64 %lsr.iv, 3
-  %scevgep3 = getelementptr i8, ptr %scevgep, i64 %71
-  %scevgep4 = getelementptr i8, ptr %scevgep3, i64 -8
+  %scevgep4 = getelementptr i8, ptr %scevgep2, i64 -8
   store double %.170.2, ptr %scevgep4, align 8
   %.147.3 = load double, ptr %scevgep90, align 8
   %.150.3 = load double, ptr %scevgep82, align 8
@@ -3719,99 +3004,37 @@ B36.endif:                                        ; preds = %B36.endif, %B36.end
   %.170.3 = fadd double %.163.3, %.169.3
   store double %.170.3, ptr %scevgep2, align 8
   %lsr.iv.next = add i64 %lsr.iv, 4
-  %exitcond.not.3 = icmp eq i64 %56, %lsr.iv.next
-  br i1 %exitcond.not.3, label %B156, label %B36.endif, !llvm.loop !78
+  %exitcond.not.3 = icmp eq i64 %52, %lsr.iv.next
+  br i1 %exitcond.not.3, label %B156, label %B36.endif, !llvm.loop !81
 }
 
-define ptr @classical(ptr %.1, double %.2, ptr %.3, ptr readonly %.4, double %.5, ptr writeonly %.6) local_unnamed_addr {
+
+define ptr @classical(ptr %.1, double %.2, ptr %.3, ptr readonly %.4, double %.5, ptr writeonly %.6) local_unnamed_addr #0 {
 entry:
   %.8 = alloca ptr, align 8
   store ptr null, ptr %.8, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.12 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4, double %.5, ptr %.6) #9
-  %.13 = load ptr, ptr %excinfo, align 8
-  %.22 = load ptr, ptr %.8, align 8
-  %.24 = alloca i32, align 4
-  store i32 0, ptr %.24, align 4
+  %.12 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4, double %.5, ptr %.6) #0
   %cond = icmp eq i32 %.12, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.20 = icmp sgt i32 %.12, 0
-  call void @numba_gil_ensure(ptr nonnull %.24)
-  br i1 %.20, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.27, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.22, %.27 ], [ %.22, %entry ]
-  ret ptr %common.ret.op
-
-.27:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.75 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.18")
-  call void @PyErr_WriteUnraisable(ptr %.75)
-  call void @Py_DecRef(ptr %.75)
-  call void @numba_gil_release(ptr nonnull %.24)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.30 = load { ptr, i32, ptr, ptr, i32 }, ptr %.13, align 8
-  %.31 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 4
-  %.32 = icmp sgt i32 %.31, 0
-  %.35 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 0
-  %.37 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 1
-  br i1 %.32, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.12, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.27
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.38 = sext i32 %.37 to i64
-  %.39 = call ptr @PyBytes_FromStringAndSize(ptr %.35, i64 %.38)
-  %.40 = load { ptr, i32, ptr, ptr, i32 }, ptr %.13, align 8
-  %.41 = extractvalue { ptr, i32, ptr, ptr, i32 } %.40, 2
-  %.43 = extractvalue { ptr, i32, ptr, ptr, i32 } %.40, 3
-  %.45 = call ptr %.43(ptr %.41)
-  %.46 = icmp eq ptr %.45, null
-  br i1 %.46, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.59 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 2
-  %.60 = call ptr @numba_unpickle(ptr %.35, i32 %.37, ptr %.59)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.62 = phi ptr [ %.50, %entry.if.if.if.endif ], [ %.60, %entry.if.if.else ]
-  %.63.not = icmp eq ptr %.62, null
-  br i1 %.63.not, label %.27, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.19")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.50 = call ptr @numba_runtime_build_excinfo_struct(ptr %.39, ptr nonnull %.45)
-  call void @NRT_Free(ptr nonnull %.13)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.62)
-  br label %.27
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.27
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.20")
-  br label %.27
+common.ret:
+  %.22 = load ptr, ptr %.8, align 8
+  ret ptr %.22
 }
 
 define i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.level, double %arg.t, double %arg.h, ptr %arg.y, ptr readonly %arg.N, ptr %arg.out) local_unnamed_addr {
 B0.endif.endif.endif.endif:
+  %.6.i9 = alloca ptr, align 8
+  %excinfo.i10 = alloca ptr, align 8
+  %.6.i2 = alloca ptr, align 8
+  %excinfo.i3 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.138 = alloca ptr, align 8
   %excinfo.5 = alloca ptr, align 8
   %.168 = alloca ptr, align 8
@@ -3841,11 +3064,11 @@ B0.endif.endif.endif.endif:
   %.642 = alloca ptr, align 8
   %excinfo.23 = alloca ptr, align 8
   %.7.i = getelementptr i8, ptr %arg.r, i64 288
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !79
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !82
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = mul nsw i64 %arg.level, 6
   %.12.i = getelementptr i8, ptr %arg.r, i64 112
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !79
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !82
   %.14.i = mul i64 %.13.i, %.13.i
   %.17.i = mul i64 %.14.i, %.10.i
   %.18.i = getelementptr double, ptr %.9.i, i64 %.17.i
@@ -3866,11 +3089,11 @@ B0.endif.endif.endif.endif:
   %.106 = load i64, ptr %.105, align 8
   %.107 = inttoptr i64 %.106 to ptr
   %.8.i20 = getelementptr i8, ptr %arg.r, i64 56
-  %.9.i21 = load i64, ptr %.8.i20, align 8, !noalias !82
+  %.9.i21 = load i64, ptr %.8.i20, align 8, !noalias !85
   %.12.i24 = getelementptr double, ptr %arg.y, i64 %.95
   %.15.i = getelementptr double, ptr %.107, i64 %.95
   %.16.i = inttoptr i64 %.9.i21 to ptr
-  tail call void %.16.i(ptr %.18.i, ptr %.12.i24, ptr %.15.i), !noalias !82
+  tail call void %.16.i(ptr %.18.i, ptr %.12.i24, ptr %.15.i), !noalias !85
   %.134 = load i64, ptr %.105, align 8
   %.135 = inttoptr i64 %.134 to ptr
   %.136 = getelementptr i8, ptr %arg.r, i64 80
@@ -3879,141 +3102,145 @@ B0.endif.endif.endif.endif:
   switch i32 %.142, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B0.endif.endif.endif.endi...endif.4.if.if, %B0.endif.endif.endif.endi...endif.4, %B0.endif.endif.endif.endi...endif.4, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif, %B0.endif.endif.endif.endi...endif.3.endif, %B0.endif.endif.endif.endi...endif.3, %B0.endif.endif.endif.endi...endif.2.endif.endif.endif, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif, %B0.endif.endif.endif.endi...endif.1.endif.endif, %B0.endif.endif.endif.endi...endif.1.endif, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif
-  %excinfo.sink = phi ptr [ %excinfo, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3 ], [ %excinfo, %B0.endif.endif.endif.endi...endif.2.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ]
-  %common.ret.op = phi i32 [ %.646, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %.612, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %.559, %B0.endif.endif.endif.endi...endif.3.endif ], [ %.531, %B0.endif.endif.endif.endi...endif.3 ], [ %.503, %B0.endif.endif.endif.endi...endif.2.endif.endif.endif ], [ %.398, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %.373, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %.345, %B0.endif.endif.endif.endi...endif.1.endif ], [ %.286, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %.258, %B0.endif.endif.endif.endif.endif.endif.endif.endif ], [ %.223, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %.198, %B0.endif.endif.endif.endif.endif.endif ], [ %.172, %B0.endif.endif.endif.endif.endif ], [ %.142, %B0.endif.endif.endif.endif ], [ 0, %B0.endif.endif.endif.endi...endif.4 ], [ 0, %B0.endif.endif.endif.endi...endif.4 ]
+common.ret:
+  %excinfo.sink = phi ptr [ %excinfo, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3 ], [ %excinfo, %remainder.exit15 ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %excinfo, %remainder.exit8 ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %remainder.exit ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ]
+  %common.ret.op = phi i32 [ %.646, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %.612, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %.559, %B0.endif.endif.endif.endi...endif.3.endif ], [ %.531, %B0.endif.endif.endif.endi...endif.3 ], [ %.503, %remainder.exit15 ], [ %.398, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %.373, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %.345, %remainder.exit8 ], [ %.286, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %.258, %remainder.exit ], [ %.223, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %.198, %B0.endif.endif.endif.endif.endif.endif ], [ %.172, %B0.endif.endif.endif.endif.endif ], [ %.142, %B0.endif.endif.endif.endif ], [ 0, %B0.endif.endif.endif.endi...endif.4 ], [ 0, %B0.endif.endif.endif.endi...endif.4 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B0.endif.endif.endif.endif.endif:                 ; preds = %B0.endif.endif.endif.endif, %B0.endif.endif.endif.endif
+B0.endif.endif.endif.endif.endif:
   %0 = inttoptr i64 %.92 to ptr
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 680
-  %.164 = load i64, ptr %sunkaddr, align 8
+  %.164 = load i64, ptr %.105, align 8
   %.165 = inttoptr i64 %.164 to ptr
-  %sunkaddr69 = getelementptr i8, ptr %arg.r, i64 80
-  %.167 = load i64, ptr %sunkaddr69, align 8
+  %.167 = load i64, ptr %.136, align 8
   %.172 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.168, ptr nonnull %excinfo.6, ptr %.165, ptr %0, i64 %.167)
   switch i32 %.172, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endif.endif.endif:           ; preds = %B0.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif
-  %1 = inttoptr i64 %.89 to ptr
+B0.endif.endif.endif.endif.endif.endif:
   %.193 = fmul double %arg.h, 5.000000e-01
-  %.198 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.194, ptr nonnull %excinfo.7, ptr %arg.y, double %.193, ptr %arg.N, ptr %1, i64 %.95)
+  %.198 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.194, ptr nonnull %excinfo.7, ptr %arg.y, double %.193, ptr %arg.N, ptr %.90, i64 %.95)
   switch i32 %.198, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endif.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endif.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endif.endif.endif.endif:     ; preds = %B0.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif.endif
-  %2 = inttoptr i64 %.89 to ptr
-  %.223 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.219, ptr nonnull %excinfo.8, ptr nonnull %arg.r, ptr %.18.i9, double 1.000000e+00, ptr %arg.N, ptr %2)
+B0.endif.endif.endif.endif.endif.endif.endif:
+  %.223 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.219, ptr nonnull %excinfo.8, ptr nonnull %arg.r, ptr %.18.i9, double 1.000000e+00, ptr %arg.N, ptr %.90)
   switch i32 %.223, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endif.endif.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endif.endif.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endif.endif.endif.endif.endif: ; preds = %B0.endif.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif.endif.endif
-  %3 = inttoptr i64 %.92 to ptr
-  %4 = inttoptr i64 %.89 to ptr
+B0.endif.endif.endif.endif.endif.endif.endif.endif:
   %.244 = fadd double %arg.t, %.193
   %.245 = getelementptr i8, ptr %arg.r, i64 720
   %.246 = load i64, ptr %.245, align 8
   %.247 = inttoptr i64 %.246 to ptr
-  %.248 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %4, ptr %.247)
+  %.10.i1 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.244, ptr %.90, ptr %.247) #0
+  %cond.i = icmp eq i32 %.10.i1, 0
+  br i1 %cond.i, label %remainder.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+remainder.exit:
   %.252 = load i64, ptr %.245, align 8
   %.253 = inttoptr i64 %.252 to ptr
-  %.258 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.254, ptr nonnull %excinfo.9, ptr %arg.y, double %.193, ptr %.253, ptr %3, i64 %.95)
+  %.258 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.254, ptr nonnull %excinfo.9, ptr %arg.y, double %.193, ptr %.253, ptr %0, i64 %.95)
   switch i32 %.258, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endif.endif.endif.endif.endif.endif: ; preds = %B0.endif.endif.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif.endif.endif.endif
-  %5 = inttoptr i64 %.92 to ptr
-  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 720
-  %.280 = load i64, ptr %sunkaddr70, align 8
+B0.endif.endif.endif.endif.endif.endif.endif.endif.endif:
+  %.280 = load i64, ptr %.245, align 8
   %.281 = inttoptr i64 %.280 to ptr
-  %.286 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.282, ptr nonnull %excinfo.10, ptr nonnull %arg.r, ptr %.18.i9, double 1.000000e+00, ptr %.281, ptr %5)
+  %.286 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.282, ptr nonnull %excinfo.10, ptr nonnull %arg.r, ptr %.18.i9, double 1.000000e+00, ptr %.281, ptr %0)
   switch i32 %.286, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.1.endif
     i32 0, label %B0.endif.endif.endif.endi...endif.1.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.1.endif:        ; preds = %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif
-  %6 = inttoptr i64 %.92 to ptr
-  %7 = inttoptr i64 %.89 to ptr
+B0.endif.endif.endif.endi...endif.1.endif:
   %.308 = getelementptr i8, ptr %arg.r, i64 728
   %.309 = load i64, ptr %.308, align 8
   %.310 = inttoptr i64 %.309 to ptr
-  %.311 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %6, ptr %.310)
-  %sunkaddr71 = getelementptr i8, ptr %arg.r, i64 56
-  %.9.i26 = load i64, ptr %sunkaddr71, align 8, !noalias !85
-  %sunkaddr72 = getelementptr i8, ptr %arg.r, i64 104
-  %.11.i28 = load i64, ptr %sunkaddr72, align 8, !noalias !85
-  %.12.i29 = getelementptr double, ptr %7, i64 %.11.i28
-  %.15.i30 = getelementptr double, ptr %6, i64 %.11.i28
+  %.10.i4 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %.244, ptr %0, ptr %.310) #0
+  %cond.i5 = icmp eq i32 %.10.i4, 0
+  br i1 %cond.i5, label %remainder.exit8, label %entry.if.i6, !prof !24
+
+entry.if.i6:
+  tail call void @llvm.trap()
+  unreachable
+
+remainder.exit8:
+  %.9.i26 = load i64, ptr %.8.i20, align 8, !noalias !88
+  %.11.i28 = load i64, ptr %.94, align 8, !noalias !88
+  %.12.i29 = getelementptr double, ptr %.90, i64 %.11.i28
+  %.15.i30 = getelementptr double, ptr %0, i64 %.11.i28
   %.16.i31 = inttoptr i64 %.9.i26 to ptr
-  tail call void %.16.i31(ptr %.18.i, ptr %.12.i29, ptr %.15.i30), !noalias !85
+  tail call void %.16.i31(ptr %.18.i, ptr %.12.i29, ptr %.15.i30), !noalias !88
   %.339 = load i64, ptr %.308, align 8
   %.340 = inttoptr i64 %.339 to ptr
-  %.345 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.341, ptr nonnull %excinfo.12, ptr %arg.y, double %arg.h, ptr %.340, ptr %6, i64 %.95)
+  %.345 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.341, ptr nonnull %excinfo.12, ptr %arg.y, double %arg.h, ptr %.340, ptr %0, i64 %.95)
   switch i32 %.345, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.1.endif.endif
     i32 0, label %B0.endif.endif.endif.endi...endif.1.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.1.endif.endif:  ; preds = %B0.endif.endif.endif.endi...endif.1.endif, %B0.endif.endif.endif.endi...endif.1.endif
-  %8 = inttoptr i64 %.92 to ptr
-  %sunkaddr73 = getelementptr i8, ptr %arg.r, i64 728
-  %.367 = load i64, ptr %sunkaddr73, align 8
+B0.endif.endif.endif.endi...endif.1.endif.endif:
+  %.367 = load i64, ptr %.308, align 8
   %.368 = inttoptr i64 %.367 to ptr
-  %.373 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.369, ptr nonnull %excinfo.13, ptr nonnull %arg.r, ptr %.18.i9, double 2.000000e+00, ptr %.368, ptr %8)
+  %.373 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.369, ptr nonnull %excinfo.13, ptr nonnull %arg.r, ptr %.18.i9, double 2.000000e+00, ptr %.368, ptr %0)
   switch i32 %.373, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.1.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endi...endif.1.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.1.endif.endif.endif: ; preds = %B0.endif.endif.endif.endi...endif.1.endif.endif, %B0.endif.endif.endif.endi...endif.1.endif.endif
-  %9 = inttoptr i64 %.92 to ptr
-  %.398 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.394, ptr nonnull %excinfo.14, ptr nonnull %arg.r, ptr %.18.i9, double -1.000000e+00, ptr %arg.N, ptr %9)
+B0.endif.endif.endif.endi...endif.1.endif.endif.endif:
+  %.398 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.394, ptr nonnull %excinfo.14, ptr nonnull %arg.r, ptr %.18.i9, double -1.000000e+00, ptr %arg.N, ptr %0)
   switch i32 %.398, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.2.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endi...endif.2.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.2.endif.endif.endif: ; preds = %B0.endif.endif.endif.endi...endif.1.endif.endif.endif, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif
-  %10 = inttoptr i64 %.92 to ptr
+B0.endif.endif.endif.endi...endif.2.endif.endif.endif:
   %.418 = fadd double %arg.t, %arg.h
   %.419 = getelementptr i8, ptr %arg.r, i64 736
   %.420 = load i64, ptr %.419, align 8
   %.421 = inttoptr i64 %.420 to ptr
-  %.422 = tail call ptr @remainder(ptr nonnull %arg.r, double %.418, ptr %10, ptr %.421)
-  %sunkaddr74 = getelementptr i8, ptr %arg.r, i64 288
-  %.8.i33 = load i64, ptr %sunkaddr74, align 8, !noalias !88
+  %.10.i11 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i9, ptr nonnull %excinfo.i10, ptr nonnull %arg.r, double %.418, ptr %0, ptr %.421) #0
+  %cond.i12 = icmp eq i32 %.10.i11, 0
+  br i1 %cond.i12, label %remainder.exit15, label %entry.if.i13, !prof !24
+
+entry.if.i13:
+  tail call void @llvm.trap()
+  unreachable
+
+remainder.exit15:
+  %.8.i33 = load i64, ptr %.7.i, align 8, !noalias !91
   %.9.i34 = inttoptr i64 %.8.i33 to ptr
   %.11.i36 = add nsw i64 %.10.i, 2
-  %sunkaddr75 = getelementptr i8, ptr %arg.r, i64 112
-  %.13.i38 = load i64, ptr %sunkaddr75, align 8, !noalias !88
+  %.13.i38 = load i64, ptr %.12.i, align 8, !noalias !91
   %.14.i39 = mul nsw i64 %.13.i38, %.11.i36
   %.17.i40 = mul nsw i64 %.14.i39, %.13.i38
   %.18.i41 = getelementptr double, ptr %.9.i34, i64 %.17.i40
-  %sunkaddr76 = getelementptr i8, ptr %arg.r, i64 56
-  %.9.i43 = load i64, ptr %sunkaddr76, align 8, !noalias !91
-  %sunkaddr77 = getelementptr i8, ptr %arg.r, i64 104
-  %.11.i45 = load i64, ptr %sunkaddr77, align 8, !noalias !91
+  %.9.i43 = load i64, ptr %.8.i20, align 8, !noalias !94
+  %.11.i45 = load i64, ptr %.94, align 8, !noalias !94
   %.12.i46 = getelementptr double, ptr %arg.y, i64 %.11.i45
   %.15.i47 = getelementptr double, ptr %arg.out, i64 %.11.i45
   %.16.i48 = inttoptr i64 %.9.i43 to ptr
-  tail call void %.16.i48(ptr %.18.i41, ptr %.12.i46, ptr %.15.i47), !noalias !91
-  %.8.i50 = load i64, ptr %sunkaddr74, align 8, !noalias !94
+  tail call void %.16.i48(ptr %.18.i41, ptr %.12.i46, ptr %.15.i47), !noalias !94
+  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !97
   %.9.i51 = inttoptr i64 %.8.i50 to ptr
   %.11.i53 = add nsw i64 %.10.i, 3
-  %.13.i55 = load i64, ptr %sunkaddr75, align 8, !noalias !94
+  %.13.i55 = load i64, ptr %.12.i, align 8, !noalias !97
   %.14.i56 = mul nsw i64 %.13.i55, %.11.i53
   %.17.i57 = mul nsw i64 %.14.i56, %.13.i55
   %.18.i58 = getelementptr double, ptr %.9.i51, i64 %.17.i57
@@ -4021,107 +3248,98 @@ B0.endif.endif.endif.endi...endif.2.endif.endif.endif: ; preds = %B0.endif.endif
   switch i32 %.503, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.3
     i32 0, label %B0.endif.endif.endif.endi...endif.3
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.3:              ; preds = %B0.endif.endif.endif.endi...endif.2.endif.endif.endif, %B0.endif.endif.endif.endi...endif.2.endif.endif.endif
-  %sunkaddr78 = getelementptr i8, ptr %arg.r, i64 720
-  %.525 = load i64, ptr %sunkaddr78, align 8
+B0.endif.endif.endif.endi...endif.3:
+  %.525 = load i64, ptr %.245, align 8
   %.526 = inttoptr i64 %.525 to ptr
   %.531 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.527, ptr nonnull %excinfo.19, ptr nonnull %arg.r, ptr %.18.i19, double 1.000000e+00, ptr %.526, ptr %arg.out)
   switch i32 %.531, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.3.endif
     i32 0, label %B0.endif.endif.endif.endi...endif.3.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.3.endif:        ; preds = %B0.endif.endif.endif.endi...endif.3, %B0.endif.endif.endif.endi...endif.3
-  %sunkaddr79 = getelementptr i8, ptr %arg.r, i64 728
-  %.553 = load i64, ptr %sunkaddr79, align 8
+B0.endif.endif.endif.endi...endif.3.endif:
+  %.553 = load i64, ptr %.308, align 8
   %.554 = inttoptr i64 %.553 to ptr
   %.559 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.555, ptr nonnull %excinfo.20, ptr nonnull %arg.r, ptr %.18.i19, double 1.000000e+00, ptr %.554, ptr %arg.out)
   switch i32 %.559, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.3.endif.endif.endif
     i32 0, label %B0.endif.endif.endif.endi...endif.3.endif.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.3.endif.endif.endif: ; preds = %B0.endif.endif.endif.endi...endif.3.endif, %B0.endif.endif.endif.endi...endif.3.endif
-  %sunkaddr80 = getelementptr i8, ptr %arg.r, i64 288
-  %.8.i60 = load i64, ptr %sunkaddr80, align 8, !noalias !97
+B0.endif.endif.endif.endi...endif.3.endif.endif.endif:
+  %.8.i60 = load i64, ptr %.7.i, align 8, !noalias !100
   %.9.i61 = inttoptr i64 %.8.i60 to ptr
   %.11.i63 = add nsw i64 %.10.i, 5
-  %sunkaddr81 = getelementptr i8, ptr %arg.r, i64 112
-  %.13.i65 = load i64, ptr %sunkaddr81, align 8, !noalias !97
+  %.13.i65 = load i64, ptr %.12.i, align 8, !noalias !100
   %.14.i66 = mul nsw i64 %.13.i65, %.11.i63
   %.17.i67 = mul nsw i64 %.14.i66, %.13.i65
   %.18.i68 = getelementptr double, ptr %.9.i61, i64 %.17.i67
-  %sunkaddr82 = getelementptr i8, ptr %arg.r, i64 736
-  %.606 = load i64, ptr %sunkaddr82, align 8
+  %.606 = load i64, ptr %.419, align 8
   %.607 = inttoptr i64 %.606 to ptr
   %.612 = call i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr nonnull %.608, ptr nonnull %excinfo.22, ptr nonnull %arg.r, ptr %.18.i68, double 1.000000e+00, ptr %.607, ptr %arg.out)
   switch i32 %.612, label %common.ret [
     i32 -2, label %B0.endif.endif.endif.endi...endif.4
     i32 0, label %B0.endif.endif.endif.endi...endif.4
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.4:              ; preds = %B0.endif.endif.endif.endi...endif.3.endif.endif.endif, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif
-  %sunkaddr83 = getelementptr i8, ptr %arg.r, i64 720
-  %.634 = load i64, ptr %sunkaddr83, align 8
+B0.endif.endif.endif.endi...endif.4:
+  %.634 = load i64, ptr %.245, align 8
   %.635 = inttoptr i64 %.634 to ptr
-  %sunkaddr84 = getelementptr i8, ptr %arg.r, i64 728
-  %.637 = load i64, ptr %sunkaddr84, align 8
+  %.637 = load i64, ptr %.308, align 8
   %.638 = inttoptr i64 %.637 to ptr
-  %sunkaddr85 = getelementptr i8, ptr %arg.r, i64 736
-  %.640 = load i64, ptr %sunkaddr85, align 8
+  %.640 = load i64, ptr %.419, align 8
   %.641 = inttoptr i64 %.640 to ptr
   %.646 = call i32 @_ZN18biped_adrc_kernels7rk4_sumB3v25B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2a10float64_2a10float64_2a10float64_2ax(ptr nonnull %.642, ptr nonnull %excinfo.23, ptr %arg.y, double %arg.h, ptr %arg.N, ptr %.635, ptr %.638, ptr %.641, ptr %arg.out, i64 %.95)
   switch i32 %.646, label %B0.endif.endif.endif.endi...endif.4.if.if [
     i32 -2, label %common.ret
     i32 0, label %common.ret
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif.endif.endi...endif.4.if.if:        ; preds = %B0.endif.endif.endif.endi...endif.4
+B0.endif.endif.endif.endi...endif.4.if.if:
   br label %common.ret
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(argmem: readwrite)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, ptr readonly %arg.M, double %arg.factor, ptr readonly %arg.N, ptr %arg.out) local_unnamed_addr #1 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels11apply_inputB3v31B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, ptr readonly %arg.M, double %arg.factor, ptr readonly %arg.N, ptr %arg.out) local_unnamed_addr #0 {
 B0.endif:
   %.20 = getelementptr i8, ptr %arg.r, i64 112
   %.21 = load i64, ptr %.20, align 8
   %.10392.not = icmp slt i64 %.21, 1
   br i1 %.10392.not, label %B244, label %B46.endif.lr.ph
 
-B46.endif.lr.ph:                                  ; preds = %B0.endif
+B46.endif.lr.ph:
   %.159 = getelementptr i8, ptr %arg.r, i64 88
   %0 = load i64, ptr %.159, align 8
   %1 = icmp slt i64 %0, 1
   br i1 %1, label %B244, label %B46.endif.preheader
 
-B46.endif.preheader:                              ; preds = %B46.endif.lr.ph
+B46.endif.preheader:
+  %sunkaddr90 = getelementptr i8, ptr %arg.r, i64 104
   br label %B46.endif
 
-B44.loopexit.loopexit.unr-lcssa:                  ; preds = %B134
+B44.loopexit.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B44.loopexit, label %B134.epil.preheader
 
-B134.epil.preheader:                              ; preds = %B134.preheader, %B44.loopexit.loopexit.unr-lcssa
+B134.epil.preheader:
   %.2468183.epil.init = phi i64 [ 0, %B134.preheader ], [ %unroll_iter, %B44.loopexit.loopexit.unr-lcssa ]
   %2 = shl i64 %.2468183.epil.init, 3
   %scevgep48 = getelementptr i8, ptr %arg.N, i64 %2
   %scevgep52 = getelementptr i8, ptr %arg.out, i64 %2
   br label %B134.epil
 
-B134.epil:                                        ; preds = %B134.epil, %B134.epil.preheader
+B134.epil:
   %lsr.iv56 = phi i64 [ %lsr.iv.next57, %B134.epil ], [ %xtraiter, %B134.epil.preheader ]
   %lsr.iv53 = phi ptr [ %scevgep54, %B134.epil ], [ %scevgep52, %B134.epil.preheader ]
   %lsr.iv49 = phi ptr [ %scevgep50, %B134.epil ], [ %scevgep48, %B134.epil.preheader ]
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 104
-  %.280.epil = load i64, ptr %sunkaddr, align 8
-  %sunkaddr89 = getelementptr i8, ptr %arg.r, i64 88
-  %.283.epil = load i64, ptr %sunkaddr89, align 8
+  %.280.epil = load i64, ptr %sunkaddr90, align 8
+  %.283.epil = load i64, ptr %.159, align 8
   %3 = shl i64 %.280.epil, 3
-  %4 = mul i64 %lsr.iv, %.283.epil
-  %5 = add i64 %4, %3
-  %scevgep = getelementptr i8, ptr %lsr.iv53, i64 %5
+  %4 = mul i64 %.283.epil, %lsr.iv
+  %5 = getelementptr i8, ptr %lsr.iv53, i64 %4
+  %scevgep = getelementptr i8, ptr %5, i64 %3
   %.290.epil = load double, ptr %scevgep, align 8
   %scevgep51 = getelementptr i8, ptr %lsr.iv49, i64 %3
   %.297.epil = load double, ptr %scevgep51, align 8
@@ -4132,24 +3350,22 @@ B134.epil:                                        ; preds = %B134.epil, %B134.ep
   %scevgep54 = getelementptr i8, ptr %lsr.iv53, i64 8
   %lsr.iv.next57 = add nsw i64 %lsr.iv56, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next57, 0
-  br i1 %epil.iter.cmp.not, label %B44.loopexit, label %B134.epil, !llvm.loop !100
+  br i1 %epil.iter.cmp.not, label %B44.loopexit, label %B134.epil, !llvm.loop !103
 
-B44.loopexit:                                     ; preds = %B46.endif, %B134.epil, %B44.loopexit.loopexit.unr-lcssa
+B44.loopexit:
   %lsr.iv.next = add i64 %lsr.iv, 8
   %exitcond99.not = icmp eq i64 %.116, %.21
-  br i1 %exitcond99.not, label %B244, label %B46.endif, !llvm.loop !101
+  br i1 %exitcond99.not, label %B244, label %B46.endif, !llvm.loop !104
 
-B134:                                             ; preds = %B134.preheader.new, %B134
+B134:
   %.2468183 = phi i64 [ 0, %B134.preheader.new ], [ %.253.7, %B134 ]
-  %sunkaddr90 = getelementptr i8, ptr %arg.r, i64 104
   %.280 = load i64, ptr %sunkaddr90, align 8
-  %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 88
-  %.283 = load i64, ptr %sunkaddr91, align 8
+  %.283 = load i64, ptr %.159, align 8
   %6 = shl i64 %.280, 3
   %7 = shl i64 %.2468183, 3
-  %8 = mul i64 %lsr.iv, %.283
-  %9 = add i64 %8, %6
-  %scevgep87 = getelementptr i8, ptr %arg.out, i64 %9
+  %8 = mul i64 %.283, %lsr.iv
+  %9 = getelementptr i8, ptr %arg.out, i64 %8
+  %scevgep87 = getelementptr i8, ptr %9, i64 %6
   %scevgep88 = getelementptr i8, ptr %scevgep87, i64 %7
   %.290 = load double, ptr %scevgep88, align 8
   %scevgep44 = getelementptr i8, ptr %arg.N, i64 %6
@@ -4159,108 +3375,96 @@ B134:                                             ; preds = %B134.preheader.new,
   %.300 = fadd double %.290, %.299
   store double %.300, ptr %scevgep88, align 8
   %.280.1 = load i64, ptr %sunkaddr90, align 8
-  %.283.1 = load i64, ptr %sunkaddr91, align 8
+  %.283.1 = load i64, ptr %.159, align 8
   %10 = shl i64 %.280.1, 3
-  %11 = mul i64 %lsr.iv, %.283.1
-  %12 = add i64 %11, %10
-  %scevgep84 = getelementptr i8, ptr %arg.out, i64 %12
-  %13 = shl i64 %.2468183, 3
-  %scevgep85 = getelementptr i8, ptr %scevgep84, i64 %13
+  %11 = mul i64 %.283.1, %lsr.iv
+  %12 = getelementptr i8, ptr %arg.out, i64 %11
+  %scevgep84 = getelementptr i8, ptr %12, i64 %10
+  %scevgep85 = getelementptr i8, ptr %scevgep84, i64 %7
   %scevgep86 = getelementptr i8, ptr %scevgep85, i64 8
   %.290.1 = load double, ptr %scevgep86, align 8
   %scevgep41 = getelementptr i8, ptr %arg.N, i64 %10
-  %14 = shl i64 %.2468183, 3
-  %scevgep82 = getelementptr i8, ptr %scevgep41, i64 %14
+  %scevgep82 = getelementptr i8, ptr %scevgep41, i64 %7
   %scevgep83 = getelementptr i8, ptr %scevgep82, i64 8
   %.297.1 = load double, ptr %scevgep83, align 8
   %.299.1 = fmul double %.154, %.297.1
   %.300.1 = fadd double %.290.1, %.299.1
   store double %.300.1, ptr %scevgep86, align 8
   %.280.2 = load i64, ptr %sunkaddr90, align 8
-  %.283.2 = load i64, ptr %sunkaddr91, align 8
-  %15 = shl i64 %.280.2, 3
-  %16 = mul i64 %lsr.iv, %.283.2
-  %17 = add i64 %16, %15
-  %scevgep79 = getelementptr i8, ptr %arg.out, i64 %17
-  %18 = shl i64 %.2468183, 3
-  %scevgep80 = getelementptr i8, ptr %scevgep79, i64 %18
+  %.283.2 = load i64, ptr %.159, align 8
+  %13 = shl i64 %.280.2, 3
+  %14 = mul i64 %.283.2, %lsr.iv
+  %15 = getelementptr i8, ptr %arg.out, i64 %14
+  %scevgep79 = getelementptr i8, ptr %15, i64 %13
+  %scevgep80 = getelementptr i8, ptr %scevgep79, i64 %7
   %scevgep81 = getelementptr i8, ptr %scevgep80, i64 16
   %.290.2 = load double, ptr %scevgep81, align 8
-  %scevgep35 = getelementptr i8, ptr %arg.N, i64 %15
-  %19 = shl i64 %.2468183, 3
-  %scevgep77 = getelementptr i8, ptr %scevgep35, i64 %19
+  %scevgep35 = getelementptr i8, ptr %arg.N, i64 %13
+  %scevgep77 = getelementptr i8, ptr %scevgep35, i64 %7
   %scevgep78 = getelementptr i8, ptr %scevgep77, i64 16
   %.297.2 = load double, ptr %scevgep78, align 8
   %.299.2 = fmul double %.154, %.297.2
   %.300.2 = fadd double %.290.2, %.299.2
   store double %.300.2, ptr %scevgep81, align 8
   %.280.3 = load i64, ptr %sunkaddr90, align 8
-  %.283.3 = load i64, ptr %sunkaddr91, align 8
-  %20 = shl i64 %.280.3, 3
-  %21 = mul i64 %lsr.iv, %.283.3
-  %22 = add i64 %21, %20
-  %scevgep74 = getelementptr i8, ptr %arg.out, i64 %22
-  %23 = shl i64 %.2468183, 3
-  %scevgep75 = getelementptr i8, ptr %scevgep74, i64 %23
+  %.283.3 = load i64, ptr %.159, align 8
+  %16 = shl i64 %.280.3, 3
+  %17 = mul i64 %.283.3, %lsr.iv
+  %18 = getelementptr i8, ptr %arg.out, i64 %17
+  %scevgep74 = getelementptr i8, ptr %18, i64 %16
+  %scevgep75 = getelementptr i8, ptr %scevgep74, i64 %7
   %scevgep76 = getelementptr i8, ptr %scevgep75, i64 24
   %.290.3 = load double, ptr %scevgep76, align 8
-  %scevgep29 = getelementptr i8, ptr %arg.N, i64 %20
-  %24 = shl i64 %.2468183, 3
-  %scevgep72 = getelementptr i8, ptr %scevgep29, i64 %24
+  %scevgep29 = getelementptr i8, ptr %arg.N, i64 %16
+  %scevgep72 = getelementptr i8, ptr %scevgep29, i64 %7
   %scevgep73 = getelementptr i8, ptr %scevgep72, i64 24
   %.297.3 = load double, ptr %scevgep73, align 8
   %.299.3 = fmul double %.154, %.297.3
   %.300.3 = fadd double %.290.3, %.299.3
   store double %.300.3, ptr %scevgep76, align 8
   %.280.4 = load i64, ptr %sunkaddr90, align 8
-  %.283.4 = load i64, ptr %sunkaddr91, align 8
-  %25 = shl i64 %.280.4, 3
-  %26 = mul i64 %lsr.iv, %.283.4
-  %27 = add i64 %26, %25
-  %scevgep69 = getelementptr i8, ptr %arg.out, i64 %27
-  %28 = shl i64 %.2468183, 3
-  %scevgep70 = getelementptr i8, ptr %scevgep69, i64 %28
+  %.283.4 = load i64, ptr %.159, align 8
+  %19 = shl i64 %.280.4, 3
+  %20 = mul i64 %.283.4, %lsr.iv
+  %21 = getelementptr i8, ptr %arg.out, i64 %20
+  %scevgep69 = getelementptr i8, ptr %21, i64 %19
+  %scevgep70 = getelementptr i8, ptr %scevgep69, i64 %7
   %scevgep71 = getelementptr i8, ptr %scevgep70, i64 32
   %.290.4 = load double, ptr %scevgep71, align 8
-  %scevgep23 = getelementptr i8, ptr %arg.N, i64 %25
-  %29 = shl i64 %.2468183, 3
-  %scevgep67 = getelementptr i8, ptr %scevgep23, i64 %29
+  %scevgep23 = getelementptr i8, ptr %arg.N, i64 %19
+  %scevgep67 = getelementptr i8, ptr %scevgep23, i64 %7
   %scevgep68 = getelementptr i8, ptr %scevgep67, i64 32
   %.297.4 = load double, ptr %scevgep68, align 8
   %.299.4 = fmul double %.154, %.297.4
   %.300.4 = fadd double %.290.4, %.299.4
   store double %.300.4, ptr %scevgep71, align 8
   %.280.5 = load i64, ptr %sunkaddr90, align 8
-  %.283.5 = load i64, ptr %sunkaddr91, align 8
-  %30 = shl i64 %.280.5, 3
-  %31 = mul i64 %lsr.iv, %.283.5
-  %32 = add i64 %31, %30
-  %scevgep64 = getelementptr i8, ptr %arg.out, i64 %32
-  %33 = shl i64 %.2468183, 3
-  %scevgep65 = getelementptr i8, ptr %scevgep64, i64 %33
+  %.283.5 = load i64, ptr %.159, align 8
+  %22 = shl i64 %.280.5, 3
+  %23 = mul i64 %.283.5, %lsr.iv
+  %24 = getelementptr i8, ptr %arg.out, i64 %23
+  %scevgep64 = getelementptr i8, ptr %24, i64 %22
+  %scevgep65 = getelementptr i8, ptr %scevgep64, i64 %7
   %scevgep66 = getelementptr i8, ptr %scevgep65, i64 40
   %.290.5 = load double, ptr %scevgep66, align 8
-  %scevgep17 = getelementptr i8, ptr %arg.N, i64 %30
-  %34 = shl i64 %.2468183, 3
-  %scevgep62 = getelementptr i8, ptr %scevgep17, i64 %34
+  %scevgep17 = getelementptr i8, ptr %arg.N, i64 %22
+  %scevgep62 = getelementptr i8, ptr %scevgep17, i64 %7
   %scevgep63 = getelementptr i8, ptr %scevgep62, i64 40
   %.297.5 = load double, ptr %scevgep63, align 8
   %.299.5 = fmul double %.154, %.297.5
   %.300.5 = fadd double %.290.5, %.299.5
   store double %.300.5, ptr %scevgep66, align 8
   %.280.6 = load i64, ptr %sunkaddr90, align 8
-  %.283.6 = load i64, ptr %sunkaddr91, align 8
-  %35 = shl i64 %.280.6, 3
-  %36 = mul i64 %lsr.iv, %.283.6
-  %37 = add i64 %36, %35
-  %scevgep59 = getelementptr i8, ptr %arg.out, i64 %37
-  %38 = shl i64 %.2468183, 3
-  %scevgep60 = getelementptr i8, ptr %scevgep59, i64 %38
+  %.283.6 = load i64, ptr %.159, align 8
+  %25 = shl i64 %.280.6, 3
+  %26 = mul i64 %.283.6, %lsr.iv
+  %27 = getelementptr i8, ptr %arg.out, i64 %26
+  %scevgep59 = getelementptr i8, ptr %27, i64 %25
+  %scevgep60 = getelementptr i8, ptr %scevgep59, i64 %7
   %scevgep61 = getelementptr i8, ptr %scevgep60, i64 48
   %.290.6 = load double, ptr %scevgep61, align 8
-  %scevgep11 = getelementptr i8, ptr %arg.N, i64 %35
-  %39 = shl i64 %.2468183, 3
-  %scevgep57 = getelementptr i8, ptr %scevgep11, i64 %39
+  %scevgep11 = getelementptr i8, ptr %arg.N, i64 %25
+  %scevgep57 = getelementptr i8, ptr %scevgep11, i64 %7
   %scevgep58 = getelementptr i8, ptr %scevgep57, i64 48
   %.297.6 = load double, ptr %scevgep58, align 8
   %.299.6 = fmul double %.154, %.297.6
@@ -4268,18 +3472,16 @@ B134:                                             ; preds = %B134.preheader.new,
   store double %.300.6, ptr %scevgep61, align 8
   %.253.7 = add nuw nsw i64 %.2468183, 8
   %.280.7 = load i64, ptr %sunkaddr90, align 8
-  %.283.7 = load i64, ptr %sunkaddr91, align 8
-  %40 = shl i64 %.280.7, 3
-  %41 = mul i64 %lsr.iv, %.283.7
-  %42 = add i64 %41, %40
-  %scevgep49 = getelementptr i8, ptr %arg.out, i64 %42
-  %43 = shl i64 %.2468183, 3
-  %scevgep53 = getelementptr i8, ptr %scevgep49, i64 %43
+  %.283.7 = load i64, ptr %.159, align 8
+  %28 = shl i64 %.280.7, 3
+  %29 = mul i64 %.283.7, %lsr.iv
+  %30 = getelementptr i8, ptr %arg.out, i64 %29
+  %scevgep49 = getelementptr i8, ptr %30, i64 %28
+  %scevgep53 = getelementptr i8, ptr %scevgep49, i64 %7
   %scevgep56 = getelementptr i8, ptr %scevgep53, i64 56
   %.290.7 = load double, ptr %scevgep56, align 8
-  %scevgep5 = getelementptr i8, ptr %arg.N, i64 %40
-  %44 = shl i64 %.2468183, 3
-  %scevgep1 = getelementptr i8, ptr %scevgep5, i64 %44
+  %scevgep5 = getelementptr i8, ptr %arg.N, i64 %28
+  %scevgep1 = getelementptr i8, ptr %scevgep5, i64 %7
   %scevgep2 = getelementptr i8, ptr %scevgep1, i64 56
   %.297.7 = load double, ptr %scevgep2, align 8
   %.299.7 = fmul double %.154, %.297.7
@@ -4288,125 +3490,65 @@ B134:                                             ; preds = %B134.preheader.new,
   %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.253.7
   br i1 %niter.ncmp.7, label %B44.loopexit.loopexit.unr-lcssa, label %B134
 
-B244:                                             ; preds = %B44.loopexit, %B46.endif.lr.ph, %B0.endif
+B244:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
-B46.endif:                                        ; preds = %B44.loopexit, %B46.endif.preheader
+B46.endif:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B44.loopexit ], [ 0, %B46.endif.preheader ]
   %.1098793 = phi i64 [ %.116, %B44.loopexit ], [ 0, %B46.endif.preheader ]
   %.116 = add nuw nsw i64 %.1098793, 1
-  %sunkaddr92 = getelementptr i8, ptr %arg.r, i64 112
-  %.146 = load i64, ptr %sunkaddr92, align 8
+  %.146 = load i64, ptr %.20, align 8
   %.148 = mul nsw i64 %.146, %.1098793
-  %45 = getelementptr double, ptr %arg.M, i64 %.148
-  %.151 = getelementptr i8, ptr %45, i64 8
+  %31 = getelementptr double, ptr %arg.M, i64 %.148
+  %.151 = getelementptr i8, ptr %31, i64 8
   %.152 = load double, ptr %.151, align 8
   %.154 = fmul double %arg.factor, %.152
-  %sunkaddr93 = getelementptr i8, ptr %arg.r, i64 88
-  %.160 = load i64, ptr %sunkaddr93, align 8
+  %.160 = load i64, ptr %.159, align 8
   %.24082.not = icmp slt i64 %.160, 1
   br i1 %.24082.not, label %B44.loopexit, label %B134.preheader
 
-B134.preheader:                                   ; preds = %B46.endif
+B134.preheader:
   %xtraiter = and i64 %.160, 7
-  %46 = icmp samesign ult i64 %.160, 8
-  br i1 %46, label %B134.epil.preheader, label %B134.preheader.new
+  %32 = icmp samesign ult i64 %.160, 8
+  br i1 %32, label %B134.epil.preheader, label %B134.preheader.new
 
-B134.preheader.new:                               ; preds = %B134.preheader
+B134.preheader.new:
   %unroll_iter = and i64 %.160, 9223372036854775800
   br label %B134
 }
 
-define ptr @exponential(ptr %.1, i64 %.2, double %.3, double %.4, ptr %.5, ptr readonly %.6, ptr %.7) local_unnamed_addr {
+
+define ptr @exponential(ptr %.1, i64 %.2, double %.3, double %.4, ptr %.5, ptr readonly %.6, ptr %.7) local_unnamed_addr #0 {
 entry:
   %.9 = alloca ptr, align 8
   store ptr null, ptr %.9, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.13 = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9, ptr nonnull %excinfo, ptr %.1, i64 %.2, double %.3, double %.4, ptr %.5, ptr %.6, ptr %.7) #9
-  %.14 = load ptr, ptr %excinfo, align 8
-  %.23 = load ptr, ptr %.9, align 8
-  %.25 = alloca i32, align 4
-  store i32 0, ptr %.25, align 4
+  %.13 = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9, ptr nonnull %excinfo, ptr %.1, i64 %.2, double %.3, double %.4, ptr %.5, ptr %.6, ptr %.7) #0
   %cond = icmp eq i32 %.13, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.21 = icmp sgt i32 %.13, 0
-  call void @numba_gil_ensure(ptr nonnull %.25)
-  br i1 %.21, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.28, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.23, %.28 ], [ %.23, %entry ]
-  ret ptr %common.ret.op
-
-.28:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.76 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.21")
-  call void @PyErr_WriteUnraisable(ptr %.76)
-  call void @Py_DecRef(ptr %.76)
-  call void @numba_gil_release(ptr nonnull %.25)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.31 = load { ptr, i32, ptr, ptr, i32 }, ptr %.14, align 8
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 4
-  %.33 = icmp sgt i32 %.32, 0
-  %.36 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 0
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 1
-  br i1 %.33, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.13, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.28
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.39 = sext i32 %.38 to i64
-  %.40 = call ptr @PyBytes_FromStringAndSize(ptr %.36, i64 %.39)
-  %.41 = load { ptr, i32, ptr, ptr, i32 }, ptr %.14, align 8
-  %.42 = extractvalue { ptr, i32, ptr, ptr, i32 } %.41, 2
-  %.44 = extractvalue { ptr, i32, ptr, ptr, i32 } %.41, 3
-  %.46 = call ptr %.44(ptr %.42)
-  %.47 = icmp eq ptr %.46, null
-  br i1 %.47, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.60 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 2
-  %.61 = call ptr @numba_unpickle(ptr %.36, i32 %.38, ptr %.60)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.63 = phi ptr [ %.51, %entry.if.if.if.endif ], [ %.61, %entry.if.if.else ]
-  %.64.not = icmp eq ptr %.63, null
-  br i1 %.64.not, label %.28, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.22")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.51 = call ptr @numba_runtime_build_excinfo_struct(ptr %.40, ptr nonnull %.46)
-  call void @NRT_Free(ptr nonnull %.14)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.63)
-  br label %.28
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.28
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.23")
-  br label %.28
+common.ret:
+  %.23 = load ptr, ptr %.9, align 8
+  ret ptr %.23
 }
 
 define i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.guard, double %arg.t, double %arg.ta, double %arg.tb, double %arg.fb) local_unnamed_addr {
 B0:
+  %.6.i13 = alloca ptr, align 8
+  %excinfo.i14 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i9 = alloca ptr, align 8
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
+  %.9.i1 = alloca ptr, align 8
+  %excinfo.i2 = alloca ptr, align 8
+  %.9.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.98 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.133 = alloca ptr, align 8
@@ -4433,10 +3575,10 @@ B0:
   switch i32 %.102, label %B0.if.if [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-B262:                                             ; preds = %B262.lr.ph, %B631
-  %lsr.iv = phi i64 [ %8, %B262.lr.ph ], [ %lsr.iv.next, %B631 ]
+B262:
+  %lsr.iv = phi i64 [ %1, %B262.lr.ph ], [ %lsr.iv.next, %B631 ]
   %count.2.089 = phi i64 [ 0, %B262.lr.ph ], [ %count.3.1, %B631 ]
   %now.2.088 = phi double [ %arg.t, %B262.lr.ph ], [ %now.3.1, %B631 ]
   %fb.2.087 = phi double [ %arg.fb, %B262.lr.ph ], [ %fb.3.1, %B631 ]
@@ -4450,94 +3592,93 @@ B262:                                             ; preds = %B262.lr.ph, %B631
   %.333 = fcmp ogt double %.327, %arg.ta
   br i1 %.333, label %B320, label %B334
 
-B320:                                             ; preds = %B262
+B320:
   %.337 = fcmp ult double %.327, %tb.2.086
   br i1 %.337, label %B394.endif, label %B631
 
-B334:                                             ; preds = %B262
-  %0 = inttoptr i64 %.47 to ptr
-  %1 = inttoptr i64 %.43 to ptr
-  %2 = inttoptr i64 %.39 to ptr
+B334:
   %.372 = fsub double %.327, %now.2.088
-  %.379 = tail call ptr @exponential(ptr %arg.r, i64 %.2778184, double %now.2.088, double %.372, ptr %2, ptr %1, ptr %0)
+  %.13.i = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9.i, ptr nonnull %excinfo.i, ptr %arg.r, i64 %.2778184, double %now.2.088, double %.372, ptr %.40, ptr readonly %0, ptr %2) #0
+  %cond.i = icmp eq i32 %.13.i, 0
+  br i1 %cond.i, label %exponential.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+exponential.exit:
   br label %B540
 
-B540:                                             ; preds = %B394.endif, %B334
-  %3 = inttoptr i64 %.47 to ptr
-  %4 = inttoptr i64 %.39 to ptr
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 80
-  %.489 = load i64, ptr %sunkaddr, align 8
-  %.496 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.492, ptr nonnull %excinfo.5, ptr %3, ptr %4, i64 %.489)
+B540:
+  %.489 = load i64, ptr %.95, align 8
+  %.496 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.492, ptr nonnull %excinfo.5, ptr %2, ptr %.40, i64 %.489)
   switch i32 %.496, label %B540.if.if [
     i32 -2, label %B540.endif
     i32 0, label %B540.endif
-  ], !prof !9
+  ], !prof !8
 
-B631:                                             ; preds = %B540.endif, %B394.endif, %B320
-  %tb.3.1 = phi double [ %tb.2.086, %B320 ], [ %tb.2.086, %B540.endif ], [ %.327, %B394.endif ]
-  %fb.3.1 = phi double [ %fb.2.087, %B320 ], [ %fb.2.087, %B540.endif ], [ %.428, %B394.endif ]
-  %now.3.1 = phi double [ %now.2.088, %B320 ], [ %.327, %B540.endif ], [ %now.2.088, %B394.endif ]
-  %count.3.1 = phi i64 [ %count.2.089, %B320 ], [ %.318, %B540.endif ], [ %count.2.089, %B394.endif ]
+B631:
+  %tb.3.1 = phi double [ %tb.2.086, %B320 ], [ %tb.2.086, %remainder.exit ], [ %.327, %watch.exit ]
+  %fb.3.1 = phi double [ %fb.2.087, %B320 ], [ %fb.2.087, %remainder.exit ], [ %.428, %watch.exit ]
+  %now.3.1 = phi double [ %now.2.088, %B320 ], [ %.327, %remainder.exit ], [ %now.2.088, %watch.exit ]
+  %count.3.1 = phi i64 [ %count.2.089, %B320 ], [ %.318, %remainder.exit ], [ %count.2.089, %watch.exit ]
   %lsr.iv.next = add i64 %lsr.iv, -1
   %.284 = add nuw i64 %.2778184, 1
-  %exitcond.not = icmp eq i64 %lsr.iv.next, -1
+  %exitcond.not = icmp eq i64 %lsr.iv, 0
   br i1 %exitcond.not, label %B630.endif, label %B262
 
-B0.endif:                                         ; preds = %B0, %B0
-  %5 = inttoptr i64 %.43 to ptr
+B0.endif:
+  %0 = inttoptr i64 %.43 to ptr
   %.126 = getelementptr i8, ptr %arg.r, i64 704
   %.127 = load i64, ptr %.126, align 8
   %.128 = inttoptr i64 %.127 to ptr
   %.130 = getelementptr i8, ptr %arg.r, i64 120
   %.131 = load i64, ptr %.130, align 8
-  %.137 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.133, ptr nonnull %excinfo.2, ptr %.128, ptr %5, i64 %.131)
+  %.137 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.133, ptr nonnull %excinfo.2, ptr %.128, ptr %0, i64 %.131)
   switch i32 %.137, label %B0.endif.if.if [
     i32 -2, label %B0.endif.endif
     i32 0, label %B0.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B630.endif, %B540.if.if, %B0.endif.endif.if.if, %B0.endif.if.if, %B0.if.if
-  %common.ret.op = phi i32 [ %.102, %B0.if.if ], [ %.137, %B0.endif.if.if ], [ 1, %B0.endif.endif.if.if ], [ 0, %B630.endif ], [ %.496, %B540.if.if ]
+common.ret:
+  %common.ret.op = phi i32 [ %.102, %B0.if.if ], [ %.137, %B0.endif.if.if ], [ 1, %B0.endif.endif.if.if ], [ 0, %flow.exit ], [ %.496, %B540.if.if ]
   ret i32 %common.ret.op
 
-B0.if.if:                                         ; preds = %B0
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B0.endif.endif:                                   ; preds = %B0.endif, %B0.endif
+B0.endif.endif:
   %.158 = getelementptr i8, ptr %arg.r, i64 232
   %.160 = load double, ptr %.158, align 8
   %.162 = add i64 %.26, -1
   %.16.i = icmp slt i64 %.162, 0
   br i1 %.16.i, label %B62.i, label %B190.i
 
-B62.i:                                            ; preds = %B0.endif.endif
+B62.i:
   %.22.i = sub i64 1, %.26
   %.27.i = icmp slt i64 %.22.i, 0
   br i1 %.27.i, label %B0.endif.endif.if.if, label %B190.i
 
-B190.i:                                           ; preds = %B62.i, %B0.endif.endif
+B190.i:
   %exp.3.0.i = phi i64 [ %.22.i, %B62.i ], [ %.162, %B0.endif.endif ]
   %.67.i = icmp samesign ugt i64 %exp.3.0.i, 65536
   br i1 %.67.i, label %B202.i, label %B270.i
 
-B202.i:                                           ; preds = %B190.i
+B202.i:
   %.76.i = sitofp i64 %.162 to double
   %mul = fneg double %.76.i
   %exp2 = tail call double @llvm.exp2.f64(double %mul)
   br label %B0.endif.endif.endif.endif
 
-B270.i:                                           ; preds = %B190.i
+B270.i:
   %.108.not.i = icmp eq i64 %exp.3.0.i, 0
-  br i1 %.108.not.i, label %B334.thread.i, label %B282.i.preheader
+  br i1 %.108.not.i, label %B334.thread.i, label %B282.i
 
-B282.i.preheader:                                 ; preds = %B270.i
-  br label %B282.i
-
-B282.i:                                           ; preds = %B282.i, %B282.i.preheader
-  %r.2.0.i = phi double [ %spec.select.i, %B282.i ], [ 1.000000e+00, %B282.i.preheader ]
-  %a.1.2.0.i = phi double [ %.147.i, %B282.i ], [ 5.000000e-01, %B282.i.preheader ]
-  %exp.4.0.i = phi i64 [ %.142.i, %B282.i ], [ %exp.3.0.i, %B282.i.preheader ]
+B282.i:
+  %r.2.0.i = phi double [ %spec.select.i, %B282.i ], [ 1.000000e+00, %B270.i ]
+  %a.1.2.0.i = phi double [ %.147.i, %B282.i ], [ 5.000000e-01, %B270.i ]
+  %exp.4.0.i = phi i64 [ %.142.i, %B282.i ], [ %exp.3.0.i, %B270.i ]
   %.122.i = and i64 %exp.4.0.i, 1
   %.123.not.i = icmp eq i64 %.122.i, 0
   %.127.i = fmul double %r.2.0.i, %a.1.2.0.i
@@ -4547,55 +3688,98 @@ B282.i:                                           ; preds = %B282.i, %B282.i.pre
   %.150.not.i = icmp eq i64 %.142.i, 0
   br i1 %.150.not.i, label %B334.i, label %B282.i
 
-B334.i:                                           ; preds = %B282.i
-  %6 = icmp slt i64 %.162, 0
-  br i1 %6, label %B338.i, label %B0.endif.endif.endif.endif
+B334.i:
+  br i1 %.16.i, label %B338.i, label %B0.endif.endif.endif.endif
 
-B334.thread.i:                                    ; preds = %B270.i
-  %7 = icmp slt i64 %.162, 0
-  br i1 %7, label %B630.endif, label %B0.endif.endif.endif.endif
+B334.thread.i:
+  br i1 %.16.i, label %B630.endif, label %B0.endif.endif.endif.endif
 
-B338.i:                                           ; preds = %B334.i
+B338.i:
   %.168.i = fcmp oeq double %spec.select.i, 0.000000e+00
-  br i1 %.168.i, label %B0.endif.endif.if.if, label %B630.endif, !prof !103
+  br i1 %.168.i, label %B0.endif.endif.if.if, label %B630.endif, !prof !106
 
-B0.endif.if.if:                                   ; preds = %B0.endif
+B0.endif.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B0.endif.endif.if.if:                             ; preds = %B338.i, %B62.i
+B0.endif.endif.if.if:
   %excinfo.3.0 = phi ptr [ @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366, %B338.i ], [ @.const.picklebuf.8928cf367dcdb5b06f67cce68474c0d77d61c7bd, %B62.i ]
   store ptr %excinfo.3.0, ptr %excinfo, align 8
   br label %common.ret
 
-B0.endif.endif.endif.endif:                       ; preds = %B334.thread.i, %B334.i, %B202.i
+B0.endif.endif.endif.endif:
   %.163.0.ph = phi double [ 1.000000e+00, %B334.thread.i ], [ %spec.select.i, %B334.i ], [ %exp2, %B202.i ]
   %.187 = fmul double %.160, %.163.0.ph
   %.27183.not = icmp slt i64 %.162, 1
   br i1 %.27183.not, label %B630.endif, label %B262.lr.ph
 
-B262.lr.ph:                                       ; preds = %B0.endif.endif.endif.endif
-  %8 = add i64 %.26, -2
+B262.lr.ph:
+  %1 = add i64 %.26, -2
+  %2 = inttoptr i64 %.47 to ptr
+  %3 = inttoptr i64 %.51 to ptr
+  %sunkaddr15 = getelementptr i8, ptr %arg.r, i64 40
+  %sunkaddr16 = getelementptr i8, ptr %arg.r, i64 256
+  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 536
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
   br label %B262
 
-B394.endif:                                       ; preds = %B320
-  %9 = inttoptr i64 %.51 to ptr
-  %10 = inttoptr i64 %.47 to ptr
-  %11 = inttoptr i64 %.43 to ptr
-  %12 = inttoptr i64 %.39 to ptr
+B394.endif:
   %.37267 = fsub double %.327, %now.2.088
-  %.37968 = tail call ptr @exponential(ptr %arg.r, i64 %.2778184, double %now.2.088, double %.37267, ptr %12, ptr %11, ptr %10)
-  %sunkaddr15 = getelementptr i8, ptr %arg.r, i64 40
-  %.8.i = load i64, ptr %sunkaddr15, align 8, !noalias !104
-  %sunkaddr16 = getelementptr i8, ptr %arg.r, i64 256
-  %.10.i = load i64, ptr %sunkaddr16, align 8, !noalias !104
+  %.13.i3 = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9.i1, ptr nonnull %excinfo.i2, ptr %arg.r, i64 %.2778184, double %now.2.088, double %.37267, ptr %.40, ptr readonly %0, ptr %2) #0
+  %cond.i4 = icmp eq i32 %.13.i3, 0
+  br i1 %cond.i4, label %exponential.exit7, label %entry.if.i5, !prof !24
+
+entry.if.i5:
+  tail call void @llvm.trap()
+  unreachable
+
+exponential.exit7:
+  %.8.i = load i64, ptr %sunkaddr15, align 8, !noalias !107
+  %.10.i = load i64, ptr %sunkaddr16, align 8, !noalias !107
   %.11.i = inttoptr i64 %.10.i to ptr
   %.12.i = inttoptr i64 %.8.i to ptr
-  tail call void %.12.i(ptr %.11.i, ptr %10, ptr %9), !noalias !104
-  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 536
+  tail call void %.12.i(ptr %.11.i, ptr %2, ptr %3), !noalias !107
   %.416 = load i64, ptr %sunkaddr17, align 8
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !110
+  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !110
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %.327, ptr %.16.i.i, align 8, !noalias !110
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !110
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !110
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !110
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %3, ptr %.33.i.i, i64 %.35.i.i), !noalias !110
+  switch i32 %.40.i.i, label %entry.if.i8 [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i8:
+  call void @llvm.trap()
+  unreachable
+
+watch.exit:
   %.417 = inttoptr i64 %.416 to ptr
-  %.421 = tail call ptr @watch(ptr %arg.r, double %.327, ptr %9, ptr %.417)
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !110
+  %.65.i.i = load i64, ptr %sunkaddr16, align 8, !noalias !110
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.417) #0, !noalias !110
   %.424 = load i64, ptr %sunkaddr17, align 8
   %.425 = inttoptr i64 %.424 to ptr
   %.427 = getelementptr double, ptr %.425, i64 %arg.guard
@@ -4603,33 +3787,46 @@ B394.endif:                                       ; preds = %B320
   %.429 = fcmp ogt double %.428, 0.000000e+00
   br i1 %.429, label %B540, label %B631
 
-B540.endif:                                       ; preds = %B540, %B540
-  %13 = inttoptr i64 %.43 to ptr
-  %14 = inttoptr i64 %.39 to ptr
-  %.519 = tail call ptr @remainder(ptr nonnull %arg.r, double %.327, ptr %14, ptr %13)
+B540.endif:
+  %.10.i10 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %.327, ptr %.40, ptr %0) #0
+  %cond.i11 = icmp eq i32 %.10.i10, 0
+  br i1 %cond.i11, label %remainder.exit, label %entry.if.i12, !prof !24
+
+entry.if.i12:
+  tail call void @llvm.trap()
+  unreachable
+
+remainder.exit:
   br label %B631
 
-B540.if.if:                                       ; preds = %B540
+B540.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B630.endif:                                       ; preds = %B0.endif.endif.endif.endif, %B338.i, %B334.thread.i, %B631
+B630.endif:
   %tb.2.0.lcssa = phi double [ %arg.tb, %B0.endif.endif.endif.endif ], [ %arg.tb, %B338.i ], [ %arg.tb, %B334.thread.i ], [ %tb.3.1, %B631 ]
   %fb.2.0.lcssa = phi double [ %arg.fb, %B0.endif.endif.endif.endif ], [ %arg.fb, %B338.i ], [ %arg.fb, %B334.thread.i ], [ %fb.3.1, %B631 ]
   %now.2.0.lcssa = phi double [ %arg.t, %B0.endif.endif.endif.endif ], [ %arg.t, %B338.i ], [ %arg.t, %B334.thread.i ], [ %now.3.1, %B631 ]
-  %15 = inttoptr i64 %.51 to ptr
-  %16 = inttoptr i64 %.39 to ptr
+  %4 = inttoptr i64 %.51 to ptr
   %.7.i1 = getelementptr i8, ptr %arg.r, i64 40
-  %.8.i2 = load i64, ptr %.7.i1, align 8, !noalias !107
+  %.8.i2 = load i64, ptr %.7.i1, align 8, !noalias !114
   %.9.i3 = getelementptr i8, ptr %arg.r, i64 256
-  %.10.i4 = load i64, ptr %.9.i3, align 8, !noalias !107
+  %.10.i4 = load i64, ptr %.9.i3, align 8, !noalias !114
   %.11.i5 = inttoptr i64 %.10.i4 to ptr
   %.12.i6 = inttoptr i64 %.8.i2 to ptr
-  tail call void %.12.i6(ptr %.11.i5, ptr %16, ptr %15), !noalias !107
+  tail call void %.12.i6(ptr %.11.i5, ptr %.40, ptr %4), !noalias !114
   %.572 = getelementptr i8, ptr %arg.r, i64 640
   %.573 = load i64, ptr %.572, align 8
   %.574 = inttoptr i64 %.573 to ptr
-  %.578 = tail call ptr @flow(ptr %arg.r, double %now.2.0.lcssa, ptr %15, ptr %.574)
+  %.10.i15 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i13, ptr nonnull %excinfo.i14, ptr %arg.r, double %now.2.0.lcssa, ptr readonly %4, ptr %.574) #0
+  %cond.i16 = icmp eq i32 %.10.i15, 0
+  br i1 %cond.i16, label %flow.exit, label %entry.if.i17, !prof !24
+
+entry.if.i17:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit:
   %.583 = getelementptr i8, ptr %arg.r, i64 456
   store double %now.2.0.lcssa, ptr %.583, align 8
   %.590 = getelementptr i8, ptr %arg.r, i64 464
@@ -4640,98 +3837,39 @@ B630.endif:                                       ; preds = %B0.endif.endif.endi
   br label %common.ret
 }
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
+
 declare double @llvm.exp2.f64(double) #2
 
-define ptr @halve(ptr %.1, i64 %.2, double %.3, double %.4, double %.5, double %.6) local_unnamed_addr {
+
+define ptr @halve(ptr %.1, i64 %.2, double %.3, double %.4, double %.5, double %.6) local_unnamed_addr #0 {
 entry:
   %.8 = alloca ptr, align 8
   store ptr null, ptr %.8, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.12 = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8, ptr nonnull %excinfo, ptr %.1, i64 %.2, double %.3, double %.4, double %.5, double %.6) #9
-  %.13 = load ptr, ptr %excinfo, align 8
-  %.22 = load ptr, ptr %.8, align 8
-  %.24 = alloca i32, align 4
-  store i32 0, ptr %.24, align 4
+  %.12 = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8, ptr nonnull %excinfo, ptr %.1, i64 %.2, double %.3, double %.4, double %.5, double %.6) #0
   %cond = icmp eq i32 %.12, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.20 = icmp sgt i32 %.12, 0
-  call void @numba_gil_ensure(ptr nonnull %.24)
-  br i1 %.20, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.27, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.22, %.27 ], [ %.22, %entry ]
-  ret ptr %common.ret.op
-
-.27:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.75 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.24")
-  call void @PyErr_WriteUnraisable(ptr %.75)
-  call void @Py_DecRef(ptr %.75)
-  call void @numba_gil_release(ptr nonnull %.24)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.30 = load { ptr, i32, ptr, ptr, i32 }, ptr %.13, align 8
-  %.31 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 4
-  %.32 = icmp sgt i32 %.31, 0
-  %.35 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 0
-  %.37 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 1
-  br i1 %.32, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.12, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.27
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.38 = sext i32 %.37 to i64
-  %.39 = call ptr @PyBytes_FromStringAndSize(ptr %.35, i64 %.38)
-  %.40 = load { ptr, i32, ptr, ptr, i32 }, ptr %.13, align 8
-  %.41 = extractvalue { ptr, i32, ptr, ptr, i32 } %.40, 2
-  %.43 = extractvalue { ptr, i32, ptr, ptr, i32 } %.40, 3
-  %.45 = call ptr %.43(ptr %.41)
-  %.46 = icmp eq ptr %.45, null
-  br i1 %.46, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.59 = extractvalue { ptr, i32, ptr, ptr, i32 } %.30, 2
-  %.60 = call ptr @numba_unpickle(ptr %.35, i32 %.37, ptr %.59)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.62 = phi ptr [ %.50, %entry.if.if.if.endif ], [ %.60, %entry.if.if.else ]
-  %.63.not = icmp eq ptr %.62, null
-  br i1 %.63.not, label %.27, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.25")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.50 = call ptr @numba_runtime_build_excinfo_struct(ptr %.39, ptr nonnull %.45)
-  call void @NRT_Free(ptr nonnull %.13)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.62)
-  br label %.27
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.27
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.26")
-  br label %.27
+common.ret:
+  %.22 = load ptr, ptr %.8, align 8
+  ret ptr %.22
 }
 
-define i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t0, double %arg.s) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t0, double %arg.s) local_unnamed_addr #0 {
 B0:
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
+  %.8.i8 = alloca ptr, align 8
+  %excinfo.i9 = alloca ptr, align 8
+  %.8.i2 = alloca ptr, align 8
+  %excinfo.i3 = alloca ptr, align 8
+  %.8.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.14 = getelementptr i8, ptr %arg.r, i64 144
   %.15 = load i64, ptr %.14, align 8
   switch i64 %.15, label %B70.i4 [
@@ -4739,14 +3877,21 @@ B0:
     i64 2, label %common.ret
   ]
 
-B36:                                              ; preds = %B0
-  %.22 = tail call ptr @halve(ptr nonnull %arg.r, i64 -1, double %arg.t0, double %arg.s, double %arg.s, double 0.000000e+00)
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
-  %.21.i = load i64, ptr %sunkaddr, align 8, !noalias !110
+B36:
+  %.12.i = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 -1, double %arg.t0, double %arg.s, double %arg.s, double 0.000000e+00) #0
+  %cond.i = icmp eq i32 %.12.i, 0
+  br i1 %cond.i, label %halve.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+halve.exit:
+  %.21.i = load i64, ptr %.14, align 8, !noalias !117
   %.22.i = icmp eq i64 %.21.i, 2
   br i1 %.22.i, label %common.ret, label %B70.i
 
-B70.i:                                            ; preds = %B36
+B70.i:
   %.35 = getelementptr i8, ptr %arg.r, i64 640
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
@@ -4757,12 +3902,20 @@ B70.i:                                            ; preds = %B36
   %.29 = load double, ptr %.27, align 8
   %.62.i = fsub double %arg.s, %.29
   %.64.i = getelementptr i8, ptr %arg.r, i64 616
-  %.65.i = load i64, ptr %.64.i, align 8, !noalias !110
+  %.65.i = load i64, ptr %.64.i, align 8, !noalias !117
   %.66.i = inttoptr i64 %.65.i to ptr
-  %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %.29, ptr %.33, ptr %.37, double %.62.i, ptr %.66.i), !noalias !110
+  %.12.i4 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %.29, ptr %.33, ptr readonly %.37, double %.62.i, ptr %.66.i) #0, !noalias !117
+  %cond.i5 = icmp eq i32 %.12.i4, 0
+  br i1 %cond.i5, label %classical.exit, label %entry.if.i6, !prof !24
+
+entry.if.i6:
+  tail call void @llvm.trap(), !noalias !117
+  unreachable
+
+classical.exit:
   br label %common.ret
 
-B70.i4:                                           ; preds = %B0
+B70.i4:
   %.78 = getelementptr i8, ptr %arg.r, i64 552
   %.79 = load i64, ptr %.78, align 8
   %.80 = inttoptr i64 %.79 to ptr
@@ -4771,69 +3924,90 @@ B70.i4:                                           ; preds = %B0
   %.76 = inttoptr i64 %.75 to ptr
   %.62.i5 = fsub double %arg.s, %arg.t0
   %.64.i6 = getelementptr i8, ptr %arg.r, i64 616
-  %.65.i7 = load i64, ptr %.64.i6, align 8, !noalias !113
+  %.65.i7 = load i64, ptr %.64.i6, align 8, !noalias !120
   %.66.i8 = inttoptr i64 %.65.i7 to ptr
-  %.71.i9 = tail call ptr @classical(ptr nonnull %arg.r, double %arg.t0, ptr %.76, ptr %.80, double %.62.i5, ptr %.66.i8), !noalias !113
+  %.12.i10 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i8, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %arg.t0, ptr %.76, ptr readonly %.80, double %.62.i5, ptr %.66.i8) #0, !noalias !120
+  %cond.i11 = icmp eq i32 %.12.i10, 0
+  br i1 %cond.i11, label %classical.exit14, label %entry.if.i12, !prof !24
+
+entry.if.i12:
+  tail call void @llvm.trap(), !noalias !120
+  unreachable
+
+classical.exit14:
   br label %common.ret
 
-common.ret:                                       ; preds = %B70.i4, %B70.i, %B36, %B0
+common.ret:
   %.80.i10 = getelementptr i8, ptr %arg.r, i64 616
-  %.81.i11 = load i64, ptr %.80.i10, align 8, !noalias !116
+  %.81.i11 = load i64, ptr %.80.i10, align 8, !noalias !123
   %.82.i12 = inttoptr i64 %.81.i11 to ptr
   %.84.i13 = getelementptr i8, ptr %arg.r, i64 536
-  %.85.i14 = load i64, ptr %.84.i13, align 8, !noalias !116
+  %.85.i14 = load i64, ptr %.84.i13, align 8, !noalias !123
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !124
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !124
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %arg.s, ptr %.16.i.i, align 8, !noalias !124
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !124
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !124
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !124
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.82.i12, ptr %.33.i.i, i64 %.35.i.i), !noalias !124
+  switch i32 %.40.i.i, label %entry.if.i15 [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i15:
+  call void @llvm.trap(), !noalias !123
+  unreachable
+
+watch.exit:
   %.86.i15 = inttoptr i64 %.85.i14 to ptr
-  %.89.i16 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.s, ptr %.82.i12, ptr %.86.i15), !noalias !116
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !124
+  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
+  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !124
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.86.i15) #0, !noalias !124
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-define ptr @retake(ptr %.1, double %.2, double %.3) local_unnamed_addr {
+
+define ptr @retake(ptr %.1, double %.2, double %.3) local_unnamed_addr #0 {
 entry:
   %.5 = alloca ptr, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull poison, ptr %.1, double %.2, double %.3) #9
+  %.9 = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull poison, ptr %.1, double %.2, double %.3) #0
   %.19 = load ptr, ptr %.5, align 8
-  %.21 = alloca i32, align 4
-  store i32 0, ptr %.21, align 4
-  %cond = icmp eq i32 %.9, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
-
-entry.if:                                         ; preds = %entry
-  %.17 = icmp sgt i32 %.9, 0
-  call void @numba_gil_ensure(ptr nonnull %.21)
-  br i1 %.17, label %entry.if.if, label %entry.if.endif
-
-common.ret:                                       ; preds = %.24, %entry
   ret ptr %.19
-
-.24:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.endif
-  %.72 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.27")
-  call void @PyErr_WriteUnraisable(ptr %.72)
-  call void @Py_DecRef(ptr %.72)
-  call void @numba_gil_release(ptr nonnull %.21)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  unreachable
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.9, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.24
-  ]
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.24
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.28")
-  br label %.24
 }
 
 define i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.guard, double %arg.t0, double %arg.ta, double %arg.tb) local_unnamed_addr {
 B0:
+  %.36.i.i9 = alloca ptr, align 8
+  %excinfo.1.i.i10 = alloca ptr, align 8
+  %.8.i3 = alloca ptr, align 8
+  %excinfo.i4 = alloca ptr, align 8
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
+  %.8.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.241 = alloca double, align 8
   %excinfo.1 = alloca ptr, align 8
   %.28 = getelementptr i8, ptr %arg.r, i64 520
@@ -4856,8 +4030,16 @@ B0:
   %.76 = icmp eq i64 %.75, 1
   br i1 %.76, label %B120, label %B324
 
-B120:                                             ; preds = %B0
-  %.92 = tail call ptr @halve(ptr nonnull %arg.r, i64 %arg.guard, double %arg.t0, double %arg.ta, double %arg.tb, double %.40)
+B120:
+  %.12.i = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 %arg.guard, double %arg.t0, double %arg.ta, double %arg.tb, double %.40) #0
+  %cond.i = icmp eq i32 %.12.i, 0
+  br i1 %cond.i, label %halve.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+halve.exit:
   %.100 = getelementptr i8, ptr %arg.r, i64 456
   %.102 = load double, ptr %.100, align 8
   %.104 = getelementptr i8, ptr %arg.r, i64 464
@@ -4872,101 +4054,199 @@ B120:                                             ; preds = %B0
   %.161 = fcmp ogt double %.102, %arg.ta
   br i1 %.161, label %B248, label %B324
 
-B248:                                             ; preds = %B120
-  %0 = inttoptr i64 %.113 to ptr
+B248:
   %.187 = getelementptr i8, ptr %arg.r, i64 536
   %.188 = load i64, ptr %.187, align 8
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !128
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !128
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %.102, ptr %.16.i.i, align 8, !noalias !128
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !128
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !128
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !128
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.114, ptr %.33.i.i, i64 %.35.i.i), !noalias !128
+  switch i32 %.40.i.i, label %entry.if.i2 [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i2:
+  call void @llvm.trap()
+  unreachable
+
+watch.exit:
   %.189 = inttoptr i64 %.188 to ptr
-  %.193 = tail call ptr @watch(ptr nonnull %arg.r, double %.102, ptr %0, ptr %.189)
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !128
+  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
+  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !128
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.189) #0, !noalias !128
   %.198 = load i64, ptr %.187, align 8
   %.199 = inttoptr i64 %.198 to ptr
   %.201 = getelementptr double, ptr %.199, i64 %arg.guard
   %.202 = load double, ptr %.201, align 8
   br label %B324
 
-B324:                                             ; preds = %B248, %B120, %B0
-  %ta.2.0 = phi double [ %.102, %B248 ], [ %arg.ta, %B120 ], [ %arg.ta, %B0 ]
-  %tb.2.0 = phi double [ %.106, %B248 ], [ %.106, %B120 ], [ %arg.tb, %B0 ]
-  %fb.2.0 = phi double [ %.110, %B248 ], [ %.110, %B120 ], [ %.40, %B0 ]
-  %fa.2.0 = phi double [ %.202, %B248 ], [ %.33, %B120 ], [ %.33, %B0 ]
-  %dx.2.0.in = phi i64 [ %.117, %B248 ], [ %.117, %B120 ], [ %.61, %B0 ]
-  %x.2.0 = phi ptr [ %0, %B248 ], [ %.114, %B120 ], [ %.58, %B0 ]
-  %base.2.0 = phi double [ %.102, %B248 ], [ %.102, %B120 ], [ %arg.t0, %B0 ]
+B324:
+  %ta.2.0 = phi double [ %.102, %watch.exit ], [ %arg.ta, %halve.exit ], [ %arg.ta, %B0 ]
+  %tb.2.0 = phi double [ %.106, %watch.exit ], [ %.106, %halve.exit ], [ %arg.tb, %B0 ]
+  %fb.2.0 = phi double [ %.110, %watch.exit ], [ %.110, %halve.exit ], [ %.40, %B0 ]
+  %fa.2.0 = phi double [ %.202, %watch.exit ], [ %.33, %halve.exit ], [ %.33, %B0 ]
+  %dx.2.0.in = phi i64 [ %.117, %watch.exit ], [ %.117, %halve.exit ], [ %.61, %B0 ]
+  %x.2.0 = phi ptr [ %.114, %watch.exit ], [ %.114, %halve.exit ], [ %.58, %B0 ]
+  %base.2.0 = phi double [ %.102, %watch.exit ], [ %.102, %halve.exit ], [ %arg.t0, %B0 ]
   %dx.2.0 = inttoptr i64 %dx.2.0.in to ptr
   store double 0.000000e+00, ptr %.241, align 8
   %.245 = call i32 @_ZN18biped_adrc_kernels5brentB3v42B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd10float64_2a10float64_2adddd(ptr nonnull %.241, ptr nonnull %excinfo.1, ptr nonnull %arg.r, i64 %arg.guard, double %base.2.0, ptr %x.2.0, ptr %dx.2.0, double %ta.2.0, double %fa.2.0, double %tb.2.0, double %fb.2.0)
   %.255 = load double, ptr %.241, align 8
   %cond = icmp eq i32 %.245, 0
-  br i1 %cond, label %B324.endif, label %B324.if.if, !prof !8
+  br i1 %cond, label %B324.endif, label %B324.if.if, !prof !24
 
-B324.endif:                                       ; preds = %B324
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
-  %.21.i = load i64, ptr %sunkaddr, align 8, !noalias !117
+B324.endif:
+  %.21.i = load i64, ptr %.74, align 8, !noalias !132
   %.22.i = icmp eq i64 %.21.i, 2
   br i1 %.22.i, label %B324.endif.endif, label %B70.i
 
-B70.i:                                            ; preds = %B324.endif
-  %1 = inttoptr i64 %dx.2.0.in to ptr
+B70.i:
   %.62.i = fsub double %.255, %base.2.0
   %.64.i = getelementptr i8, ptr %arg.r, i64 616
-  %.65.i = load i64, ptr %.64.i, align 8, !noalias !117
+  %.65.i = load i64, ptr %.64.i, align 8, !noalias !132
   %.66.i = inttoptr i64 %.65.i to ptr
-  %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %base.2.0, ptr %x.2.0, ptr %1, double %.62.i, ptr %.66.i), !noalias !117
+  %.12.i5 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i3, ptr nonnull %excinfo.i4, ptr nonnull %arg.r, double %base.2.0, ptr %x.2.0, ptr readonly %dx.2.0, double %.62.i, ptr %.66.i) #0, !noalias !132
+  %cond.i6 = icmp eq i32 %.12.i5, 0
+  br i1 %cond.i6, label %classical.exit, label %entry.if.i7, !prof !24
+
+entry.if.i7:
+  tail call void @llvm.trap(), !noalias !132
+  unreachable
+
+classical.exit:
   br label %B324.endif.endif
 
-common.ret:                                       ; preds = %B324.endif.endif, %B324.if.if
+common.ret:
   ret i32 %.245
 
-B324.if.if:                                       ; preds = %B324
+B324.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B324.endif.endif:                                 ; preds = %B70.i, %B324.endif
+B324.endif.endif:
   %.80.i = getelementptr i8, ptr %arg.r, i64 616
-  %.81.i = load i64, ptr %.80.i, align 8, !noalias !117
+  %.81.i = load i64, ptr %.80.i, align 8, !noalias !132
   %.82.i = inttoptr i64 %.81.i to ptr
   %.84.i = getelementptr i8, ptr %arg.r, i64 536
-  %.85.i = load i64, ptr %.84.i, align 8, !noalias !117
+  %.85.i = load i64, ptr %.84.i, align 8, !noalias !132
+  %.8.i.i11 = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i.i12 = load double, ptr %.8.i.i11, align 8, !noalias !135
+  %.11.i.i13 = getelementptr i8, ptr %arg.r, i64 432
+  %.13.i.i14 = load double, ptr %.11.i.i13, align 8, !noalias !135
+  %.14.i.i15 = getelementptr i8, ptr %arg.r, i64 488
+  %.15.i.i16 = load i64, ptr %.14.i.i15, align 8, !noalias !135
+  %.16.i.i17 = inttoptr i64 %.15.i.i16 to ptr
+  store double %.255, ptr %.16.i.i17, align 8, !noalias !135
+  %.20.i.i18 = load i64, ptr %.14.i.i15, align 8, !noalias !135
+  %.21.i.i19 = inttoptr i64 %.20.i.i18 to ptr
+  %.22.i.i20 = getelementptr i8, ptr %.21.i.i19, i64 8
+  store double %.10.i.i12, ptr %.22.i.i20, align 8, !noalias !135
+  %.25.i.i21 = load i64, ptr %.14.i.i15, align 8, !noalias !135
+  %.26.i.i22 = inttoptr i64 %.25.i.i21 to ptr
+  %.27.i.i23 = getelementptr i8, ptr %.26.i.i22, i64 16
+  store double %.13.i.i14, ptr %.27.i.i23, align 8, !noalias !135
+  %.31.i.i24 = load i64, ptr %.14.i.i15, align 8, !noalias !135
+  %.32.i.i25 = inttoptr i64 %.31.i.i24 to ptr
+  %.33.i.i26 = getelementptr i8, ptr %.32.i.i25, i64 24
+  %.34.i.i27 = getelementptr i8, ptr %arg.r, i64 72
+  %.35.i.i28 = load i64, ptr %.34.i.i27, align 8, !noalias !135
+  %.40.i.i29 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i9, ptr nonnull %excinfo.1.i.i10, ptr readonly %.82.i, ptr %.33.i.i26, i64 %.35.i.i28), !noalias !135
+  switch i32 %.40.i.i29, label %entry.if.i38 [
+    i32 -2, label %watch.exit39
+    i32 0, label %watch.exit39
+  ], !prof !8
+
+entry.if.i38:
+  call void @llvm.trap(), !noalias !132
+  unreachable
+
+watch.exit39:
   %.86.i = inttoptr i64 %.85.i to ptr
-  %.89.i = tail call ptr @watch(ptr nonnull %arg.r, double %.255, ptr %.82.i, ptr %.86.i), !noalias !117
+  %.62.i.i30 = getelementptr i8, ptr %arg.r, i64 24
+  %.63.i.i31 = load i64, ptr %.62.i.i30, align 8, !noalias !135
+  %.64.i.i32 = getelementptr i8, ptr %arg.r, i64 256
+  %.65.i.i33 = load i64, ptr %.64.i.i32, align 8, !noalias !135
+  %.66.i.i34 = inttoptr i64 %.65.i.i33 to ptr
+  %.68.i.i35 = load i64, ptr %.14.i.i15, align 8, !noalias !135
+  %.69.i.i36 = inttoptr i64 %.68.i.i35 to ptr
+  %.70.i.i37 = inttoptr i64 %.63.i.i31 to ptr
+  call void %.70.i.i37(ptr %.66.i.i34, ptr %.69.i.i36, ptr %.86.i) #0, !noalias !135
   store double %.255, ptr %retptr, align 8
   br label %common.ret
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels5brentB3v42B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd10float64_2a10float64_2adddd(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r, i64 %arg.guard, double %arg.base, ptr %arg.x, ptr %arg.dx, double %arg.ta, double %arg.fa, double %arg.tb, double %arg.fb) local_unnamed_addr {
 B92.lr.ph:
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
+  %.8.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.65 = fsub double %arg.tb, %arg.ta
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 144
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 616
+  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 536
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
   br label %B92
 
-B92:                                              ; preds = %B918.endif, %B92.lr.ph
-  %lsr.iv1 = phi i64 [ %lsr.iv.next2, %B918.endif ], [ 10002, %B92.lr.ph ]
-  %step.5.079 = phi double [ %.65, %B92.lr.ph ], [ %step.6.1, %B918.endif ]
-  %last.5.078 = phi double [ %.65, %B92.lr.ph ], [ %last.6.1, %B918.endif ]
-  %other.4.077 = phi double [ %arg.ta, %B92.lr.ph ], [ %other.5.1, %B918.endif ]
-  %f_other.4.076 = phi double [ %arg.fa, %B92.lr.ph ], [ %f_other.5.1, %B918.endif ]
-  %f_now.3.075 = phi double [ %arg.fb, %B92.lr.ph ], [ %.700, %B918.endif ]
-  %now.4.074 = phi double [ %arg.tb, %B92.lr.ph ], [ %now.5.1, %B918.endif ]
-  %f_before.3.073 = phi double [ %arg.fa, %B92.lr.ph ], [ %f_now.4.1, %B918.endif ]
-  %before.3.072 = phi double [ %arg.ta, %B92.lr.ph ], [ %now.6.1, %B918.endif ]
+B92:
+  %lsr.iv1 = phi i64 [ %lsr.iv.next2, %watch.exit ], [ 10002, %B92.lr.ph ]
+  %step.5.079 = phi double [ %step.6.1, %watch.exit ], [ %.65, %B92.lr.ph ]
+  %last.5.078 = phi double [ %last.6.1, %watch.exit ], [ %.65, %B92.lr.ph ]
+  %other.4.077 = phi double [ %other.5.1, %watch.exit ], [ %arg.ta, %B92.lr.ph ]
+  %f_other.4.076 = phi double [ %f_other.5.1, %watch.exit ], [ %arg.fa, %B92.lr.ph ]
+  %f_now.3.075 = phi double [ %.700, %watch.exit ], [ %arg.fb, %B92.lr.ph ]
+  %now.4.074 = phi double [ %now.5.1, %watch.exit ], [ %arg.tb, %B92.lr.ph ]
+  %f_before.3.073 = phi double [ %f_now.4.1, %watch.exit ], [ %arg.fa, %B92.lr.ph ]
+  %before.3.072 = phi double [ %now.6.1, %watch.exit ], [ %arg.ta, %B92.lr.ph ]
   %or.cond = fcmp ueq double %f_now.3.075, 0.000000e+00
   br i1 %or.cond, label %common.ret, label %B126
 
-common.ret:                                       ; preds = %B918.endif, %B360, %B264, %B92
-  %now.5.1.lcssa.sink = phi double [ %now.6.1, %B264 ], [ %now.4.074, %B92 ], [ %now.6.1, %B360 ], [ %now.5.1, %B918.endif ]
+common.ret:
+  %now.5.1.lcssa.sink = phi double [ %now.6.1, %B264 ], [ %now.4.074, %B92 ], [ %now.6.1, %B360 ], [ %now.5.1, %watch.exit ]
   store double %now.5.1.lcssa.sink, ptr %retptr, align 8
   ret i32 0
 
-B126:                                             ; preds = %B92
+B126:
   %.255 = fcmp olt double %f_before.3.073, 0.000000e+00
   %.257 = fcmp olt double %f_now.3.075, 0.000000e+00
   %.258 = xor i1 %.257, %.255
   br i1 %.258, label %B154, label %B176
 
-B154:                                             ; preds = %B126
+B154:
   %.268 = fsub double %now.4.074, %before.3.072
   br label %B176
 
-B176:                                             ; preds = %B154, %B126
+B176:
   %f_other.3.1 = phi double [ %f_before.3.073, %B154 ], [ %f_other.4.076, %B126 ]
   %other.3.1 = phi double [ %before.3.072, %B154 ], [ %other.4.077, %B126 ]
   %last.4.1 = phi double [ %.268, %B154 ], [ %last.5.078, %B126 ]
@@ -4976,10 +4256,10 @@ B176:                                             ; preds = %B154, %B126
   %.306 = fcmp olt double %.303, %.305
   br i1 %.306, label %B240, label %B264
 
-B240:                                             ; preds = %B176
+B240:
   br label %B264
 
-B264:                                             ; preds = %B240, %B176
+B264:
   %before.4.1 = phi double [ %now.4.074, %B240 ], [ %before.3.072, %B176 ]
   %f_before.4.1 = phi double [ %f_now.3.075, %B240 ], [ %f_before.3.073, %B176 ]
   %now.6.1 = phi double [ %other.3.1, %B240 ], [ %now.4.074, %B176 ]
@@ -4995,27 +4275,27 @@ B264:                                             ; preds = %B240, %B176
   %.359 = fcmp oeq double %f_now.4.1, 0.000000e+00
   br i1 %.359, label %common.ret, label %B360
 
-B360:                                             ; preds = %B264
+B360:
   %.362 = tail call double @llvm.fabs.f64(double %.351)
   %.364 = fcmp olt double %.362, %.347
   br i1 %.364, label %common.ret, label %B406
 
-B406:                                             ; preds = %B360
+B406:
   %.409 = tail call double @llvm.fabs.f64(double %last.4.1)
   %.411 = fcmp ogt double %.409, %.347
   br i1 %.411, label %B468, label %B678.endif
 
-B468:                                             ; preds = %B406
+B468:
   %.419 = tail call double @llvm.fabs.f64(double %f_now.4.1)
   %.421 = tail call double @llvm.fabs.f64(double %f_before.4.1)
   %.422 = fcmp olt double %.419, %.421
   br i1 %.422, label %B532, label %B678.endif
 
-B532:                                             ; preds = %B468
+B532:
   %.428 = fcmp oeq double %before.4.1, %other.5.1
   br i1 %.428, label %B544, label %B576
 
-B544:                                             ; preds = %B532
+B544:
   %.431 = fneg double %f_now.4.1
   %.434 = fsub double %now.6.1, %before.4.1
   %.437 = fmul double %.434, %.431
@@ -5023,7 +4303,7 @@ B544:                                             ; preds = %B532
   %.446 = fdiv double %.437, %.440
   br label %B678.endif
 
-B576:                                             ; preds = %B532
+B576:
   %.452 = fsub double %f_before.4.1, %f_now.4.1
   %.455 = fsub double %before.4.1, %now.6.1
   %.461 = fdiv double %.452, %.455
@@ -5040,7 +4320,7 @@ B576:                                             ; preds = %B532
   %.490 = fdiv double %.486, %.476
   br label %B678.endif
 
-B678.endif:                                       ; preds = %B576, %B544, %B468, %B406
+B678.endif:
   %trial.3.1 = phi double [ %.446, %B544 ], [ %.490, %B576 ], [ 0x7FF0000000000000, %B468 ], [ 0x7FF0000000000000, %B406 ]
   %.509 = fmul double %.362, 3.000000e+00
   %.511 = fsub double %.509, %.347
@@ -5057,130 +4337,101 @@ B678.endif:                                       ; preds = %B576, %B544, %B468,
   %"$phi912.2.2.2" = select i1 %.595, double %.347, double %.613
   %step.6.1.pn = select i1 %.579, double %step.6.1, double %"$phi912.2.2.2"
   %now.5.1 = fadd double %now.6.1, %step.6.1.pn
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 144
-  %.21.i = load i64, ptr %sunkaddr3, align 8, !noalias !120
+  %.21.i = load i64, ptr %sunkaddr3, align 8, !noalias !139
   %.22.i = icmp eq i64 %.21.i, 2
   br i1 %.22.i, label %B918.endif, label %B70.i
 
-B70.i:                                            ; preds = %B678.endif
+B70.i:
   %.62.i = fsub double %now.5.1, %arg.base
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 616
-  %.65.i = load i64, ptr %sunkaddr, align 8, !noalias !120
+  %.65.i = load i64, ptr %sunkaddr, align 8, !noalias !139
   %.66.i = inttoptr i64 %.65.i to ptr
-  %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %arg.base, ptr %arg.x, ptr %arg.dx, double %.62.i, ptr %.66.i), !noalias !120
+  %.12.i1 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.base, ptr %arg.x, ptr readonly %arg.dx, double %.62.i, ptr %.66.i) #0, !noalias !139
+  %cond.i = icmp eq i32 %.12.i1, 0
+  br i1 %cond.i, label %classical.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap(), !noalias !139
+  unreachable
+
+classical.exit:
   br label %B918.endif
 
-B918.endif:                                       ; preds = %B70.i, %B678.endif
-  %0 = fcmp olt double %.502, %.13.i
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 616
-  %.81.i = load i64, ptr %sunkaddr4, align 8, !noalias !120
+B918.endif:
+  %.81.i = load i64, ptr %sunkaddr, align 8, !noalias !139
   %.82.i = inttoptr i64 %.81.i to ptr
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 536
-  %.85.i = load i64, ptr %sunkaddr5, align 8, !noalias !120
+  %.85.i = load i64, ptr %sunkaddr5, align 8, !noalias !139
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !142
+  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !142
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %now.5.1, ptr %.16.i.i, align 8, !noalias !142
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !142
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !142
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !142
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.82.i, ptr %.33.i.i, i64 %.35.i.i), !noalias !142
+  switch i32 %.40.i.i, label %entry.if.i3 [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i3:
+  call void @llvm.trap(), !noalias !139
+  unreachable
+
+watch.exit:
   %.86.i = inttoptr i64 %.85.i to ptr
-  %.89.i = tail call ptr @watch(ptr nonnull %arg.r, double %now.5.1, ptr %.82.i, ptr %.86.i), !noalias !120
-  %last.6.1 = select i1 %0, double %step.4.1, double %.351
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !142
+  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !142
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.86.i) #0, !noalias !142
+  %last.6.1 = select i1 %.540, double %step.4.1, double %.351
   %.696 = load i64, ptr %sunkaddr5, align 8
   %.697 = inttoptr i64 %.696 to ptr
   %.699 = getelementptr double, ptr %.697, i64 %arg.guard
   %.700 = load double, ptr %.699, align 8
   %lsr.iv.next2 = add nsw i64 %lsr.iv1, -1
-  %.154 = icmp samesign ugt i64 %lsr.iv.next2, 2
+  %.154 = icmp samesign ugt i64 %lsr.iv1, 3
   br i1 %.154, label %B92, label %common.ret
 }
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
+
 declare double @llvm.fabs.f64(double) #2
 
-define double @locate(ptr %.1, i64 %.2, double %.3, double %.4, double %.5) local_unnamed_addr {
+
+define double @locate(ptr %.1, i64 %.2, double %.3, double %.4, double %.5) local_unnamed_addr #0 {
 entry:
   %.7 = alloca double, align 8
   store double 0.000000e+00, ptr %.7, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.11 = call i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, double %.3, double %.4, double %.5) #9
-  %.12 = load ptr, ptr %excinfo, align 8
-  %.21 = load double, ptr %.7, align 8
-  %.23 = alloca i32, align 4
-  store i32 0, ptr %.23, align 4
+  %.11 = call i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, double %.3, double %.4, double %.5) #0
   %cond = icmp eq i32 %.11, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.19 = icmp sgt i32 %.11, 0
-  call void @numba_gil_ensure(ptr nonnull %.23)
-  br i1 %.19, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.26, %entry
-  %common.ret.op = phi double [ 0.000000e+00, %entry.if.if.if.if ], [ %.21, %.26 ], [ %.21, %entry ]
-  ret double %common.ret.op
-
-.26:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.74 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.29")
-  call void @PyErr_WriteUnraisable(ptr %.74)
-  call void @Py_DecRef(ptr %.74)
-  call void @numba_gil_release(ptr nonnull %.23)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.29 = load { ptr, i32, ptr, ptr, i32 }, ptr %.12, align 8
-  %.30 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 4
-  %.31 = icmp sgt i32 %.30, 0
-  %.34 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 0
-  %.36 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 1
-  br i1 %.31, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.11, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.26
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.37 = sext i32 %.36 to i64
-  %.38 = call ptr @PyBytes_FromStringAndSize(ptr %.34, i64 %.37)
-  %.39 = load { ptr, i32, ptr, ptr, i32 }, ptr %.12, align 8
-  %.40 = extractvalue { ptr, i32, ptr, ptr, i32 } %.39, 2
-  %.42 = extractvalue { ptr, i32, ptr, ptr, i32 } %.39, 3
-  %.44 = call ptr %.42(ptr %.40)
-  %.45 = icmp eq ptr %.44, null
-  br i1 %.45, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.58 = extractvalue { ptr, i32, ptr, ptr, i32 } %.29, 2
-  %.59 = call ptr @numba_unpickle(ptr %.34, i32 %.36, ptr %.58)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.61 = phi ptr [ %.49, %entry.if.if.if.endif ], [ %.59, %entry.if.if.else ]
-  %.62.not = icmp eq ptr %.61, null
-  br i1 %.62.not, label %.26, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.30")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.49 = call ptr @numba_runtime_build_excinfo_struct(ptr %.38, ptr nonnull %.44)
-  call void @NRT_Free(ptr nonnull %.12)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.61)
-  br label %.26
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.26
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.31")
-  br label %.26
+common.ret:
+  %.21 = load double, ptr %.7, align 8
+  ret double %.21
 }
 
 define i32 @_ZN18biped_adrc_kernels4liftB3v43B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t0, double %arg.s) local_unnamed_addr {
 B0:
+  %.5.i1 = alloca ptr, align 8
+  %.5.i = alloca ptr, align 8
   %.34 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.307 = alloca ptr, align 8
@@ -5195,7 +4446,7 @@ B0:
   %.15 = fsub double %arg.s, %arg.t0
   %.16 = fmul double %.15, 5.000000e-01
   %.18 = fadd double %arg.t0, %.16
-  %.21 = tail call ptr @retake(ptr %arg.r, double %arg.t0, double %.18)
+  %.9.i = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull poison, ptr %arg.r, double %arg.t0, double %.18) #0
   %.24 = getelementptr i8, ptr %arg.r, i64 536
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
@@ -5208,100 +4459,89 @@ B0:
   switch i32 %.38, label %B0.if.if [
     i32 -2, label %B0.endif.endif
     i32 0, label %B0.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B196:                                             ; preds = %B196.preheader, %B503
-  %.1527578 = phi i64 [ %.159, %B503 ], [ 1, %B196.preheader ]
-  %0 = inttoptr i64 %.298.pre to ptr
+B196:
+  %.1527578 = phi i64 [ %.159, %B503 ], [ 1, %B503.peel ]
   %.159 = add nuw i64 %.1527578, 1
-  %1 = shl i64 %.1527578, 3
-  %scevgep8 = getelementptr i8, ptr %0, i64 %1
+  %0 = shl i64 %.1527578, 3
+  %scevgep8 = getelementptr i8, ptr %.190, i64 %0
   %.193 = load double, ptr %scevgep8, align 8
-  %sunkaddr = inttoptr i64 %.199 to ptr
-  %sunkaddr9 = mul i64 %.1527578, 8
-  %sunkaddr10 = getelementptr i8, ptr %sunkaddr, i64 %sunkaddr9
+  %sunkaddr10 = getelementptr i8, ptr %.200, i64 %0
   %.203 = load double, ptr %sunkaddr10, align 8
   %.204 = fcmp oeq double %.203, 0.000000e+00
   %.211 = fcmp olt double %.193, 0.000000e+00
   %or.cond = select i1 %.204, i1 %.211, i1 false
   br i1 %or.cond, label %B278, label %B503
 
-B278:                                             ; preds = %B196
-  %sunkaddr11 = getelementptr i8, ptr %arg.r, i64 528
-  %.225 = load i64, ptr %sunkaddr11, align 8
+B278:
+  %.225 = load i64, ptr %.28, align 8
   %.226 = inttoptr i64 %.225 to ptr
-  %2 = shl i64 %.1527578, 3
-  %scevgep = getelementptr i8, ptr %.226, i64 %2
+  %scevgep = getelementptr i8, ptr %.226, i64 %0
   %.229 = load double, ptr %scevgep, align 8
   %.230 = fmul double %.229, 3.000000e+00
   %.232 = fcmp olt double %.193, %.230
   br i1 %.232, label %B352, label %B503
 
-common.ret:                                       ; preds = %B502.if.if, %B502.endif, %B468.if.if, %B372.endif.if.if, %B372.if.if, %B0.if.if, %B352
+common.ret:
   %common.ret.op = phi i32 [ 0, %B352 ], [ %.38, %B0.if.if ], [ %.424, %B502.if.if ], [ %.311, %B372.if.if ], [ %.338, %B372.endif.if.if ], [ %.372, %B468.if.if ], [ 0, %B502.endif ]
   ret i32 %common.ret.op
 
-B352:                                             ; preds = %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel, %B278
+B352:
   store i64 7, ptr %retptr, align 8
   br label %common.ret
 
-B372:                                             ; preds = %B503.peel, %B0.endif.endif.B372_crit_edge, %B503
-  %.299.pre-phi = phi ptr [ %.pre, %B0.endif.endif.B372_crit_edge ], [ %3, %B503 ], [ %4, %B503.peel ]
-  %sunkaddr12 = getelementptr i8, ptr %arg.r, i64 528
-  %.302 = load i64, ptr %sunkaddr12, align 8
+B372:
+  %.299.pre-phi = phi ptr [ %.pre, %B0.endif.endif.B372_crit_edge ], [ %.190, %B503.peel ], [ %.190, %B503 ]
+  %.302 = load i64, ptr %.28, align 8
   %.303 = inttoptr i64 %.302 to ptr
   %.311 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.307, ptr nonnull %excinfo.3, ptr %.299.pre-phi, ptr %.303, i64 %.66)
   switch i32 %.311, label %B372.if.if [
     i32 -2, label %B372.endif
     i32 0, label %B372.endif
-  ], !prof !9
+  ], !prof !8
 
-B468:                                             ; preds = %B372.endif.endif
+B468:
   store i64 0, ptr %.368, align 8
   %.372 = call i32 @_ZN18biped_adrc_kernels7crossedB3v48B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addd(ptr nonnull %.368, ptr nonnull %excinfo.5, ptr nonnull %arg.r, double %arg.t0, double %arg.t0, double %arg.s)
   %.382 = load i64, ptr %.368, align 8
   %cond5 = icmp eq i32 %.372, 0
-  br i1 %cond5, label %B502, label %B468.if.if, !prof !8
+  br i1 %cond5, label %B502, label %B468.if.if, !prof !24
 
-B502:                                             ; preds = %B372.endif.endif, %B468
+B502:
   %"$phi502.0.2.0" = phi i64 [ %.348, %B372.endif.endif ], [ %.382, %B468 ]
-  %sunkaddr13 = getelementptr i8, ptr %arg.r, i64 528
-  %.409 = load i64, ptr %sunkaddr13, align 8
+  %.409 = load i64, ptr %.28, align 8
   %.410 = inttoptr i64 %.409 to ptr
   %.412 = getelementptr i8, ptr %arg.r, i64 520
   %.413 = load i64, ptr %.412, align 8
   %.414 = inttoptr i64 %.413 to ptr
-  %sunkaddr14 = getelementptr i8, ptr %arg.r, i64 136
-  %.417 = load i64, ptr %sunkaddr14, align 8
+  %.417 = load i64, ptr %.32, align 8
   %.424 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.420, ptr nonnull %excinfo.6, ptr %.410, ptr %.414, i64 %.417)
   switch i32 %.424, label %B502.if.if [
     i32 -2, label %B502.endif
     i32 0, label %B502.endif
-  ], !prof !9
+  ], !prof !8
 
-B503:                                             ; preds = %B278, %B196
-  %3 = inttoptr i64 %.298.pre to ptr
+B503:
   %exitcond.not = icmp eq i64 %.66, %.159
-  br i1 %exitcond.not, label %B372, label %B196, !llvm.loop !123
+  br i1 %exitcond.not, label %B372, label %B196, !llvm.loop !146
 
-B0.if.if:                                         ; preds = %B0
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B0.endif.endif:                                   ; preds = %B0, %B0
-  %.63 = tail call ptr @retake(ptr nonnull %arg.r, double %arg.t0, double %arg.s)
-  %sunkaddr15 = getelementptr i8, ptr %arg.r, i64 136
-  %.66 = load i64, ptr %sunkaddr15, align 8
+B0.endif.endif:
+  %.9.i2 = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i1, ptr nonnull poison, ptr nonnull %arg.r, double %arg.t0, double %arg.s) #0
+  %.66 = load i64, ptr %.32, align 8
   %.14677.not = icmp slt i64 %.66, 1
-  %sunkaddr16 = getelementptr i8, ptr %arg.r, i64 536
-  %.298.pre = load i64, ptr %sunkaddr16, align 8
+  %.298.pre = load i64, ptr %.24, align 8
   br i1 %.14677.not, label %B0.endif.endif.B372_crit_edge, label %B196.lr.ph
 
-B0.endif.endif.B372_crit_edge:                    ; preds = %B0.endif.endif
+B0.endif.endif.B372_crit_edge:
   %.pre = inttoptr i64 %.298.pre to ptr
   br label %B372
 
-B196.lr.ph:                                       ; preds = %B0.endif.endif
+B196.lr.ph:
   %.198 = getelementptr i8, ptr %arg.r, i64 520
   %.190 = inttoptr i64 %.298.pre to ptr
   %.199 = load i64, ptr %.198, align 8
@@ -5313,85 +4553,87 @@ B196.lr.ph:                                       ; preds = %B0.endif.endif
   %or.cond.peel = select i1 %.204.peel, i1 %.211.peel, i1 false
   br i1 %or.cond.peel, label %B278.peel, label %B503.peel
 
-B278.peel:                                        ; preds = %B196.lr.ph
-  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 528
-  %.225.peel = load i64, ptr %sunkaddr17, align 8
+B278.peel:
+  %.225.peel = load i64, ptr %.28, align 8
   %.226.peel = inttoptr i64 %.225.peel to ptr
   %.229.peel = load double, ptr %.226.peel, align 8
   %.230.peel = fmul double %.229.peel, 3.000000e+00
   %.232.peel = fcmp olt double %.193.peel, %.230.peel
   br i1 %.232.peel, label %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel, label %B503.peel
 
-_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel: ; preds = %B278.peel
-  %sunkaddr18 = inttoptr i64 %.298.pre to ptr
-  %sunkaddr19 = getelementptr i8, ptr %sunkaddr18, i64 24
-  %.19.i.peel = load double, ptr %sunkaddr19, align 8, !noalias !125
+_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel:
+  %sunkaddr19 = getelementptr i8, ptr %.190, i64 24
+  %.19.i.peel = load double, ptr %sunkaddr19, align 8, !noalias !148
   %sunkaddr20 = getelementptr i8, ptr %arg.r, i64 224
-  %.23.i.peel = load double, ptr %sunkaddr20, align 8, !noalias !125
+  %.23.i.peel = load double, ptr %sunkaddr20, align 8, !noalias !148
   %.26.i.peel = fcmp ule double %.19.i.peel, %.23.i.peel
   br i1 %.26.i.peel, label %B503.peel, label %B352
 
-B503.peel:                                        ; preds = %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel, %B278.peel, %B196.lr.ph
-  %4 = inttoptr i64 %.298.pre to ptr
+B503.peel:
   %exitcond.not.peel = icmp eq i64 %.66, 1
-  br i1 %exitcond.not.peel, label %B372, label %B196.preheader
+  br i1 %exitcond.not.peel, label %B372, label %B196
 
-B196.preheader:                                   ; preds = %B503.peel
-  br label %B196
-
-B372.endif:                                       ; preds = %B372, %B372
+B372.endif:
   store i64 0, ptr %.334, align 8
   %.338 = call i32 @_ZN18biped_adrc_kernels7overdueB3v45B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad(ptr nonnull %.334, ptr nonnull %excinfo.4, ptr nonnull %arg.r, double %arg.t0)
   %cond = icmp eq i32 %.338, 0
-  br i1 %cond, label %B372.endif.endif, label %B372.endif.if.if, !prof !8
+  br i1 %cond, label %B372.endif.endif, label %B372.endif.if.if, !prof !24
 
-B372.if.if:                                       ; preds = %B372
+B372.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B372.endif.endif:                                 ; preds = %B372.endif
+B372.endif.endif:
   %.348 = load i64, ptr %.334, align 8
   %.358.not = icmp eq i64 %.348, 0
   br i1 %.358.not, label %B468, label %B502
 
-B372.endif.if.if:                                 ; preds = %B372.endif
+B372.endif.if.if:
   %.346 = icmp sgt i32 %.338, 0
   %.339 = load ptr, ptr %excinfo.4, align 8
   %.347 = select i1 %.346, ptr %.339, ptr undef
   store ptr %.347, ptr %excinfo, align 8
   br label %common.ret
 
-B468.if.if:                                       ; preds = %B468
+B468.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B502.endif:                                       ; preds = %B502, %B502
+B502.endif:
   store i64 %"$phi502.0.2.0", ptr %retptr, align 8
   br label %common.ret
 
-B502.if.if:                                       ; preds = %B502
+B502.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels7crossedB3v48B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addd(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t0, double %arg.ta, double %arg.tb) local_unnamed_addr {
 B0.endif:
+  %.7.i1 = alloca double, align 8
+  %excinfo.i2 = alloca ptr, align 8
+  %.7.i = alloca double, align 8
+  %excinfo.i = alloca ptr, align 8
   %.26 = getelementptr i8, ptr %arg.r, i64 136
   %.27 = load i64, ptr %.26, align 8
   %.109138.not = icmp slt i64 %.27, 1
   br i1 %.109138.not, label %common.ret, label %B78.preheader
 
-B78.preheader:                                    ; preds = %B0.endif
-  %const = bitcast i64 9223372036854775792 to i64
+B78.preheader:
+  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 520
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 528
+  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 616
+  %sunkaddr69 = getelementptr i8, ptr %arg.r, i64 80
+  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 536
+  %sunkaddr71 = getelementptr i8, ptr %arg.r, i64 224
   br label %B78
 
-B78:                                              ; preds = %B407.thread, %B407, %B78.preheader
-  %first.3.0143 = phi double [ 0x7FF0000000000000, %B78.preheader ], [ %.223, %B407.thread ], [ %first.4.1, %B407 ]
-  %first_guard.2.0142 = phi i64 [ -1, %B78.preheader ], [ 0, %B407.thread ], [ %first_guard.3.1.fr, %B407 ]
-  %last.2.0141 = phi i64 [ -1, %B78.preheader ], [ 0, %B407.thread ], [ %last.3.1, %B407 ]
-  %.115135139 = phi i64 [ 0, %B78.preheader ], [ 1, %B407.thread ], [ %.122, %B407 ]
+B78:
+  %first.3.0143 = phi double [ 0x7FF0000000000000, %B78.preheader ], [ %first.3.0143.be, %B78.backedge ]
+  %first_guard.2.0142 = phi i64 [ -1, %B78.preheader ], [ %first_guard.2.0142.be, %B78.backedge ]
+  %last.2.0141 = phi i64 [ -1, %B78.preheader ], [ %last.2.0141.be, %B78.backedge ]
+  %.115135139 = phi i64 [ 0, %B78.preheader ], [ %.115135139.be, %B78.backedge ]
   %.122 = add nuw nsw i64 %.115135139, 1
-  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 520
   %.152 = load i64, ptr %sunkaddr67, align 8
   %.153 = inttoptr i64 %.152 to ptr
   %.155 = getelementptr double, ptr %.153, i64 %.115135139
@@ -5399,8 +4641,7 @@ B78:                                              ; preds = %B407.thread, %B407,
   %.157 = fcmp ogt double %.156, 0.000000e+00
   br i1 %.157, label %B118, label %B407
 
-B118:                                             ; preds = %B78
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 528
+B118:
   %.178 = load i64, ptr %sunkaddr, align 8
   %.179 = inttoptr i64 %.178 to ptr
   %.181 = getelementptr double, ptr %.179, i64 %.115135139
@@ -5408,205 +4649,232 @@ B118:                                             ; preds = %B78
   %.184 = fcmp ugt double %.182, 0.000000e+00
   br i1 %.184, label %B407, label %B156
 
-B156:                                             ; preds = %B118
-  %.223 = tail call double @locate(ptr nonnull %arg.r, i64 %.115135139, double %arg.t0, double %arg.ta, double %arg.tb)
-  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 616
+B156:
+  store double 0.000000e+00, ptr %.7.i, align 8
+  %.11.i = call i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr nonnull %.7.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 %.115135139, double %arg.t0, double %arg.ta, double %arg.tb) #0
+  %cond.i = icmp eq i32 %.11.i, 0
+  br i1 %cond.i, label %locate.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+locate.exit:
+  %.21.i = load double, ptr %.7.i, align 8
   %.234 = load i64, ptr %sunkaddr68, align 8
-  %sunkaddr69 = getelementptr i8, ptr %arg.r, i64 80
   %.238 = load i64, ptr %sunkaddr69, align 8
   %.9240.not.i = icmp slt i64 %.238, 1
   br i1 %.9240.not.i, label %B284, label %iter.check.i
 
-iter.check.i:                                     ; preds = %B156
+iter.check.i:
   %min.iters.check.i = icmp samesign ult i64 %.238, 4
   br i1 %min.iters.check.i, label %iter.check.i.B40.i.preheader_crit_edge, label %vector.main.loop.iter.check.i
 
-iter.check.i.B40.i.preheader_crit_edge:           ; preds = %iter.check.i
+iter.check.i.B40.i.preheader_crit_edge:
   %.pre = inttoptr i64 %.234 to ptr
   br label %B40.i.preheader
 
-vector.main.loop.iter.check.i:                    ; preds = %iter.check.i
+vector.main.loop.iter.check.i:
   %min.iters.check1.i = icmp samesign ult i64 %.238, 16
   br i1 %min.iters.check1.i, label %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge, label %vector.ph.i
 
-vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge: ; preds = %vector.main.loop.iter.check.i
+vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge:
   %.pre44 = inttoptr i64 %.234 to ptr
   br label %vec.epilog.ph.i
 
-vector.ph.i:                                      ; preds = %vector.main.loop.iter.check.i
-  %n.vec.i = and i64 %.238, %const
+vector.ph.i:
+  %n.vec.i = and i64 %.238, 9223372036854775792
+  %0 = inttoptr i64 %.234 to ptr
   br label %vector.body.i
 
-vector.body.i:                                    ; preds = %vector.body.i, %vector.ph.i
+vector.body.i:
   %index.i = phi i64 [ 0, %vector.ph.i ], [ %index.next.i, %vector.body.i ]
-  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %6, %vector.body.i ]
-  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %7, %vector.body.i ]
-  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %8, %vector.body.i ]
-  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %9, %vector.body.i ]
-  %0 = inttoptr i64 %.234 to ptr
+  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %9, %vector.body.i ]
+  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %10, %vector.body.i ]
+  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %11, %vector.body.i ]
+  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %12, %vector.body.i ]
   %sunkaddr50 = shl i64 %index.i, 3
   %sunkaddr51 = getelementptr i8, ptr %0, i64 %sunkaddr50
-  %wide.load.i = load <4 x double>, ptr %sunkaddr51, align 8, !noalias !128
+  %wide.load.i = load <4 x double>, ptr %sunkaddr51, align 8, !noalias !151
   %sunkaddr55 = getelementptr i8, ptr %sunkaddr51, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr55, align 8, !noalias !128
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr55, align 8, !noalias !151
   %sunkaddr59 = getelementptr i8, ptr %sunkaddr51, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr59, align 8, !noalias !128
-  %1 = shl i64 %index.i, 3
-  %scevgep = getelementptr i8, ptr %0, i64 %1
-  %scevgep66 = getelementptr i8, ptr %scevgep, i64 96
-  %wide.load7.i = load <4 x double>, ptr %scevgep66, align 8, !noalias !128
-  %2 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load.i, i32 504)
-  %3 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load5.i, i32 504)
-  %4 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load6.i, i32 504)
-  %5 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load7.i, i32 504)
-  %6 = and <4 x i1> %vec.phi.i, %2
-  %7 = and <4 x i1> %vec.phi2.i, %3
-  %8 = and <4 x i1> %vec.phi3.i, %4
-  %9 = and <4 x i1> %vec.phi4.i, %5
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr59, align 8, !noalias !151
+  %scevgep66 = getelementptr i8, ptr %sunkaddr51, i64 96
+  %wide.load7.i = load <4 x double>, ptr %scevgep66, align 8, !noalias !151
+  %1 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
+  %2 = fcmp one <4 x double> %1, splat (double 0x7FF0000000000000)
+  %3 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
+  %4 = fcmp one <4 x double> %3, splat (double 0x7FF0000000000000)
+  %5 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load6.i)
+  %6 = fcmp one <4 x double> %5, splat (double 0x7FF0000000000000)
+  %7 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load7.i)
+  %8 = fcmp one <4 x double> %7, splat (double 0x7FF0000000000000)
+  %9 = and <4 x i1> %vec.phi.i, %2
+  %10 = and <4 x i1> %vec.phi2.i, %4
+  %11 = and <4 x i1> %vec.phi3.i, %6
+  %12 = and <4 x i1> %vec.phi4.i, %8
   %index.next.i = add nuw nsw i64 %index.i, 16
-  %10 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %10, label %middle.block.i, label %vector.body.i, !llvm.loop !131
+  %13 = icmp eq i64 %n.vec.i, %index.next.i
+  br i1 %13, label %middle.block.i, label %vector.body.i, !llvm.loop !154
 
-middle.block.i:                                   ; preds = %vector.body.i
-  %bin.rdx.i = and <4 x i1> %6, %7
-  %bin.rdx8.i = and <4 x i1> %8, %bin.rdx.i
-  %bin.rdx9.i = and <4 x i1> %9, %bin.rdx8.i
-  %11 = bitcast <4 x i1> %bin.rdx9.i to i4
-  %12 = icmp eq i4 %11, -1
+middle.block.i:
+  %bin.rdx.i = and <4 x i1> %9, %10
+  %bin.rdx8.i = and <4 x i1> %11, %bin.rdx.i
+  %bin.rdx9.i = and <4 x i1> %12, %bin.rdx8.i
+  %14 = bitcast <4 x i1> %bin.rdx9.i to i4
+  %15 = icmp eq i4 %14, -1
   %cmp.n.i = icmp eq i64 %.238, %n.vec.i
   br i1 %cmp.n.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %vec.epilog.iter.check.i
 
-vec.epilog.iter.check.i:                          ; preds = %middle.block.i
-  %13 = inttoptr i64 %.234 to ptr
-  %14 = and i64 %.238, 12
-  %min.epilog.iters.check.i = icmp eq i64 %14, 0
-  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !21
+vec.epilog.iter.check.i:
+  %16 = and i64 %.238, 12
+  %min.epilog.iters.check.i = icmp eq i64 %16, 0
+  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !20
 
-vec.epilog.ph.i:                                  ; preds = %vec.epilog.iter.check.i, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge
-  %.pre-phi45 = phi ptr [ %.pre44, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %13, %vec.epilog.iter.check.i ]
+vec.epilog.ph.i:
+  %.pre-phi45 = phi ptr [ %.pre44, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %0, %vec.epilog.iter.check.i ]
   %vec.epilog.resume.val.i = phi i64 [ 0, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %n.vec.i, %vec.epilog.iter.check.i ]
-  %bc.merge.rdx.i = phi i1 [ true, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %12, %vec.epilog.iter.check.i ]
-  %const_mat = add i64 %const, 12
-  %n.vec11.i = and i64 %.238, %const_mat
-  %15 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
+  %bc.merge.rdx.i = phi i1 [ true, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %15, %vec.epilog.iter.check.i ]
+  %n.vec11.i = and i64 %.238, 9223372036854775804
+  %17 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
   br label %vec.epilog.vector.body.i
 
-vec.epilog.vector.body.i:                         ; preds = %vec.epilog.vector.body.i, %vec.epilog.ph.i
+vec.epilog.vector.body.i:
   %index12.i = phi i64 [ %vec.epilog.resume.val.i, %vec.epilog.ph.i ], [ %index.next15.i, %vec.epilog.vector.body.i ]
-  %vec.phi13.i = phi <4 x i1> [ %15, %vec.epilog.ph.i ], [ %18, %vec.epilog.vector.body.i ]
-  %16 = shl i64 %index12.i, 3
-  %scevgep28.i = getelementptr i8, ptr %.pre-phi45, i64 %16
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !128
-  %17 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load14.i, i32 504)
-  %18 = and <4 x i1> %vec.phi13.i, %17
+  %vec.phi13.i = phi <4 x i1> [ %17, %vec.epilog.ph.i ], [ %21, %vec.epilog.vector.body.i ]
+  %18 = shl i64 %index12.i, 3
+  %scevgep28.i = getelementptr i8, ptr %.pre-phi45, i64 %18
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !151
+  %19 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
+  %20 = fcmp one <4 x double> %19, splat (double 0x7FF0000000000000)
+  %21 = and <4 x i1> %vec.phi13.i, %20
   %index.next15.i = add nuw i64 %index12.i, 4
-  %19 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %19, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !132
+  %22 = icmp eq i64 %n.vec11.i, %index.next15.i
+  br i1 %22, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !155
 
-vec.epilog.middle.block.i:                        ; preds = %vec.epilog.vector.body.i
-  %20 = bitcast <4 x i1> %18 to i4
-  %21 = icmp eq i4 %20, -1
+vec.epilog.middle.block.i:
+  %23 = bitcast <4 x i1> %21 to i4
+  %24 = icmp eq i4 %23, -1
   %cmp.n16.i = icmp eq i64 %.238, %n.vec11.i
   br i1 %cmp.n16.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i.preheader
 
-B40.i.preheader:                                  ; preds = %vec.epilog.middle.block.i, %vec.epilog.iter.check.i, %iter.check.i.B40.i.preheader_crit_edge
-  %.pre-phi = phi ptr [ %.pre, %iter.check.i.B40.i.preheader_crit_edge ], [ %13, %vec.epilog.iter.check.i ], [ %.pre-phi45, %vec.epilog.middle.block.i ]
-  %good.2.043.i.ph = phi i1 [ true, %iter.check.i.B40.i.preheader_crit_edge ], [ %12, %vec.epilog.iter.check.i ], [ %21, %vec.epilog.middle.block.i ]
+B40.i.preheader:
+  %.pre-phi = phi ptr [ %.pre, %iter.check.i.B40.i.preheader_crit_edge ], [ %0, %vec.epilog.iter.check.i ], [ %.pre-phi45, %vec.epilog.middle.block.i ]
+  %good.2.043.i.ph = phi i1 [ true, %iter.check.i.B40.i.preheader_crit_edge ], [ %15, %vec.epilog.iter.check.i ], [ %24, %vec.epilog.middle.block.i ]
   %.983941.i.ph = phi i64 [ 0, %iter.check.i.B40.i.preheader_crit_edge ], [ %n.vec.i, %vec.epilog.iter.check.i ], [ %n.vec11.i, %vec.epilog.middle.block.i ]
   br label %B40.i
 
-B40.i:                                            ; preds = %B40.i, %B40.i.preheader
+B40.i:
   %good.2.043.i = phi i1 [ %.136.i, %B40.i ], [ %good.2.043.i.ph, %B40.i.preheader ]
   %.983941.i = phi i64 [ %.105.i, %B40.i ], [ %.983941.i.ph, %B40.i.preheader ]
   %.105.i = add nuw nsw i64 %.983941.i, 1
-  %22 = shl i64 %.983941.i, 3
-  %scevgep.i = getelementptr i8, ptr %.pre-phi, i64 %22
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !128
-  %23 = call i1 @llvm.is.fpclass.f64(double %.132.i, i32 504)
-  %.136.i = and i1 %good.2.043.i, %23
+  %25 = shl i64 %.983941.i, 3
+  %scevgep.i = getelementptr i8, ptr %.pre-phi, i64 %25
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !151
+  %26 = tail call double @llvm.fabs.f64(double %.132.i)
+  %27 = fcmp one double %26, 0x7FF0000000000000
+  %.136.i = and i1 %good.2.043.i, %27
   %exitcond.not.i = icmp eq i64 %.238, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !133
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !156
 
-_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit: ; preds = %B40.i, %vec.epilog.middle.block.i, %middle.block.i
-  %.136.lcssa.i = phi i1 [ %21, %vec.epilog.middle.block.i ], [ %12, %middle.block.i ], [ %.136.i, %B40.i ]
+_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
+  %.136.lcssa.i = phi i1 [ %24, %vec.epilog.middle.block.i ], [ %15, %middle.block.i ], [ %.136.i, %B40.i ]
   br i1 %.136.lcssa.i, label %B284, label %B250.endif
 
-B284:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, %B156
-  %.332 = fcmp olt double %.223, %first.3.0143
+B284:
+  %.332 = fcmp olt double %.21.i, %first.3.0143
   br i1 %.332, label %B296, label %B407
 
-B296:                                             ; preds = %B284
+B296:
   %.9.not.i = icmp eq i64 %.115135139, 0
   br i1 %.9.not.i, label %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit, label %B407
 
-_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit: ; preds = %B296
-  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 536
-  %.16.i = load i64, ptr %sunkaddr70, align 8, !noalias !134
+_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit:
+  %.16.i = load i64, ptr %sunkaddr70, align 8, !noalias !157
   %.17.i = inttoptr i64 %.16.i to ptr
   %.18.i = getelementptr i8, ptr %.17.i, i64 24
-  %.19.i = load double, ptr %.18.i, align 8, !noalias !134
-  %sunkaddr71 = getelementptr i8, ptr %arg.r, i64 224
-  %.23.i = load double, ptr %sunkaddr71, align 8, !noalias !134
+  %.19.i = load double, ptr %.18.i, align 8, !noalias !157
+  %.23.i = load double, ptr %sunkaddr71, align 8, !noalias !157
   %.26.i = fcmp ule double %.19.i, %.23.i
   %cond.fr = freeze i1 %.26.i
   br i1 %cond.fr, label %B407, label %B407.thread
 
-B340:                                             ; preds = %B407
+B340:
   %.432 = icmp slt i64 %first_guard.3.1.fr, 0
   br i1 %.432, label %common.ret, label %B356
 
-common.ret:                                       ; preds = %26, %B406.endif, %B250.endif, %B340, %B0.endif
-  %switch.select8.i.sink = phi i64 [ 0, %B340 ], [ %spec.select.i, %B250.endif ], [ 0, %B0.endif ], [ 9, %26 ], [ %25, %B406.endif ]
+common.ret:
+  %switch.select8.i.sink = phi i64 [ 0, %B340 ], [ %spec.select.i, %B250.endif ], [ 0, %B0.endif ], [ 9, %30 ], [ %29, %B406.endif ]
   store i64 %switch.select8.i.sink, ptr %retptr, align 8
   ret i32 0
 
-B356:                                             ; preds = %B340
-  %24 = icmp eq i64 %first_guard.3.1.fr, %last.3.1
-  br i1 %24, label %B406.endif, label %B368
+B356:
+  %28 = icmp eq i64 %first_guard.3.1.fr, %last.3.1
+  br i1 %28, label %B406.endif, label %B368
 
-B368:                                             ; preds = %B356
-  %.467 = tail call double @locate(ptr nonnull %arg.r, i64 %first_guard.3.1.fr, double %arg.t0, double %arg.ta, double %arg.tb)
+B368:
+  store double 0.000000e+00, ptr %.7.i1, align 8
+  %.11.i3 = call i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr nonnull %.7.i1, ptr nonnull %excinfo.i2, ptr nonnull %arg.r, i64 %first_guard.3.1.fr, double %arg.t0, double %arg.ta, double %arg.tb) #0
+  %cond.i4 = icmp eq i32 %.11.i3, 0
+  br i1 %cond.i4, label %locate.exit7, label %entry.if.i5, !prof !24
+
+entry.if.i5:
+  tail call void @llvm.trap()
+  unreachable
+
+locate.exit7:
+  %.21.i6 = load double, ptr %.7.i1, align 8
   br label %B406.endif
 
-B407:                                             ; preds = %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit, %B296, %B284, %B118, %B78
+B407:
   %last.3.1 = phi i64 [ %last.2.0141, %B78 ], [ %last.2.0141, %B118 ], [ %.115135139, %B284 ], [ %.115135139, %B296 ], [ 0, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
   %first_guard.3.1 = phi i64 [ %first_guard.2.0142, %B78 ], [ %first_guard.2.0142, %B118 ], [ %first_guard.2.0142, %B284 ], [ %.115135139, %B296 ], [ %first_guard.2.0142, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
-  %first.4.1 = phi double [ %first.3.0143, %B78 ], [ %first.3.0143, %B118 ], [ %first.3.0143, %B284 ], [ %.223, %B296 ], [ %first.3.0143, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
+  %first.4.1 = phi double [ %first.3.0143, %B78 ], [ %first.3.0143, %B118 ], [ %first.3.0143, %B284 ], [ %.21.i, %B296 ], [ %first.3.0143, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
   %first_guard.3.1.fr = freeze i64 %first_guard.3.1
   %exitcond.not = icmp eq i64 %.122, %.27
-  br i1 %exitcond.not, label %B340, label %B78
+  br i1 %exitcond.not, label %B340, label %B78.backedge
 
-B407.thread:                                      ; preds = %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit
+B78.backedge:
+  %first.3.0143.be = phi double [ %first.4.1, %B407 ], [ %.21.i, %B407.thread ]
+  %first_guard.2.0142.be = phi i64 [ %first_guard.3.1.fr, %B407 ], [ 0, %B407.thread ]
+  %last.2.0141.be = phi i64 [ %last.3.1, %B407 ], [ 0, %B407.thread ]
+  %.115135139.be = phi i64 [ %.122, %B407 ], [ 1, %B407.thread ]
+  br label %B78
+
+B407.thread:
   %exitcond.not8 = icmp eq i64 %.122, %.27
-  br i1 %exitcond.not8, label %.thread, label %B78
+  br i1 %exitcond.not8, label %.thread, label %B78.backedge
 
-.thread:                                          ; preds = %B407.thread
+.thread:
   %.48527 = getelementptr i8, ptr %arg.r, i64 448
-  store double %.223, ptr %.48527, align 8
-  br label %26
+  store double %.21.i, ptr %.48527, align 8
+  br label %30
 
-B250.endif:                                       ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit
+B250.endif:
   %.8.i = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !137
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !160
   %.10.i = icmp eq i64 %.9.i, 0
   %spec.select.i = select i1 %.10.i, i64 4, i64 %.9.i
   br label %common.ret
 
-B406.endif:                                       ; preds = %B368, %B356
-  %first.6.0 = phi double [ %.467, %B368 ], [ %first.4.1, %B356 ]
+B406.endif:
+  %first.6.0 = phi double [ %.21.i6, %locate.exit7 ], [ %first.4.1, %B356 ]
   %.485 = getelementptr i8, ptr %arg.r, i64 448
   store double %first.6.0, ptr %.485, align 8
   %switch.selectcmp.i = icmp eq i64 %first_guard.3.1.fr, 1
-  %25 = select i1 %switch.selectcmp.i, i64 2, i64 3
+  %29 = select i1 %switch.selectcmp.i, i64 2, i64 3
   %switch.selectcmp7.i = icmp eq i64 %first_guard.3.1.fr, 0
-  br i1 %switch.selectcmp7.i, label %26, label %common.ret
+  br i1 %switch.selectcmp7.i, label %30, label %common.ret
 
-26:                                               ; preds = %B406.endif, %.thread
+30:
   br label %common.ret
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels7overdueB3v45B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t0) local_unnamed_addr {
 B0:
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
   %.22 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.12 = getelementptr i8, ptr %arg.r, i64 544
@@ -5621,70 +4889,107 @@ B0:
   switch i32 %.26, label %B0.if.if [
     i32 -2, label %B0.endif.endif
     i32 0, label %B0.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B166:                                             ; preds = %B166.preheader, %B420
+B166:
   %lsr.iv = phi i64 [ 0, %B166.preheader ], [ %lsr.iv.next, %B420 ]
   %.204.not = icmp eq i64 %2, %lsr.iv
   br i1 %.204.not, label %B420, label %B244
 
-B244:                                             ; preds = %B166
-  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 520
+B244:
   %.184 = load i64, ptr %sunkaddr9, align 8
   %.185 = inttoptr i64 %.184 to ptr
   %scevgep = getelementptr i8, ptr %.185, i64 8
   %0 = shl i64 %lsr.iv, 3
   %scevgep18 = getelementptr i8, ptr %scevgep, i64 %0
   %.188 = load double, ptr %scevgep18, align 8
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 528
   %.191 = load i64, ptr %sunkaddr, align 8
   %.192 = inttoptr i64 %.191 to ptr
   %scevgep19 = getelementptr i8, ptr %.192, i64 8
-  %1 = shl i64 %lsr.iv, 3
-  %scevgep8 = getelementptr i8, ptr %scevgep19, i64 %1
+  %scevgep8 = getelementptr i8, ptr %scevgep19, i64 %0
   %.195 = load double, ptr %scevgep8, align 8
   %.218 = fcmp ole double %.188, 0.000000e+00
   %.230 = fcmp ogt double %.188, %.195
   %or.cond = select i1 %.218, i1 %.230, i1 false
   br i1 %or.cond, label %B370.endif.loopexit, label %B420
 
-B420:                                             ; preds = %B244, %B166
+B420:
   %lsr.iv.next = add nuw i64 %lsr.iv, 1
-  %exitcond.not = icmp eq i64 %3, %lsr.iv.next
-  br i1 %exitcond.not, label %B422, label %B166, !llvm.loop !140
+  %1 = add i64 %lsr.iv, 2
+  %exitcond.not = icmp eq i64 %.61, %1
+  br i1 %exitcond.not, label %B422, label %B166, !llvm.loop !163
 
-common.ret:                                       ; preds = %B370.endif, %B0.if.if, %B422
+common.ret:
   %common.ret.op = phi i32 [ 0, %B422 ], [ %.26, %B0.if.if ], [ 0, %B370.endif ]
   ret i32 %common.ret.op
 
-B422:                                             ; preds = %B420.peel, %B0.endif.endif, %B420
+B422:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B0.if.if:                                         ; preds = %B0
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B0.endif.endif:                                   ; preds = %B0, %B0
-  %sunkaddr10 = getelementptr i8, ptr %arg.r, i64 616
-  %.50 = load i64, ptr %sunkaddr10, align 8
+B0.endif.endif:
+  %.50 = load i64, ptr %.16, align 8
   %.51 = inttoptr i64 %.50 to ptr
   %.53 = getelementptr i8, ptr %arg.r, i64 536
   %.54 = load i64, ptr %.53, align 8
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !164
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !164
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %arg.t0, ptr %.16.i.i, align 8, !noalias !164
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !164
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !164
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !164
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.51, ptr %.33.i.i, i64 %.35.i.i), !noalias !164
+  switch i32 %.40.i.i, label %entry.if.i [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i:
+  call void @llvm.trap()
+  unreachable
+
+watch.exit:
   %.55 = inttoptr i64 %.54 to ptr
-  %.58 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t0, ptr %.51, ptr %.55)
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !164
+  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
+  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !164
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.55) #0, !noalias !164
   %.60 = getelementptr i8, ptr %arg.r, i64 136
   %.61 = load i64, ptr %.60, align 8
   %.14185.not = icmp slt i64 %.61, 1
   br i1 %.14185.not, label %B422, label %B166.lr.ph
 
-B166.lr.ph:                                       ; preds = %B0.endif.endif
+B166.lr.ph:
   %.201 = getelementptr i8, ptr %arg.r, i64 368
   %.202 = load i64, ptr %.201, align 8
   %.204.not.peel = icmp eq i64 %.202, 0
   br i1 %.204.not.peel, label %B420.peel, label %B244.peel
 
-B244.peel:                                        ; preds = %B166.lr.ph
+B244.peel:
   %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 520
   %.184.peel = load i64, ptr %sunkaddr23, align 8
   %.185.peel = inttoptr i64 %.184.peel to ptr
@@ -5698,128 +5003,67 @@ B244.peel:                                        ; preds = %B166.lr.ph
   %or.cond.peel = select i1 %.218.peel, i1 %.230.peel, i1 false
   br i1 %or.cond.peel, label %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel, label %B420.peel
 
-_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel: ; preds = %B244.peel
-  %sunkaddr11 = getelementptr i8, ptr %arg.r, i64 536
-  %.16.i.peel = load i64, ptr %sunkaddr11, align 8, !noalias !141
+_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel:
+  %.16.i.peel = load i64, ptr %.53, align 8, !noalias !168
   %.17.i.peel = inttoptr i64 %.16.i.peel to ptr
   %.18.i.peel = getelementptr i8, ptr %.17.i.peel, i64 24
-  %.19.i.peel = load double, ptr %.18.i.peel, align 8, !noalias !141
+  %.19.i.peel = load double, ptr %.18.i.peel, align 8, !noalias !168
   %sunkaddr26 = getelementptr i8, ptr %arg.r, i64 224
-  %.23.i.peel = load double, ptr %sunkaddr26, align 8, !noalias !141
+  %.23.i.peel = load double, ptr %sunkaddr26, align 8, !noalias !168
   %.26.i.peel = fcmp ule double %.19.i.peel, %.23.i.peel
   br i1 %.26.i.peel, label %B420.peel, label %B370.endif
 
-B420.peel:                                        ; preds = %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel, %B244.peel, %B166.lr.ph
+B420.peel:
   %exitcond.not.peel = icmp eq i64 %.61, 1
   br i1 %exitcond.not.peel, label %B422, label %B166.preheader
 
-B166.preheader:                                   ; preds = %B420.peel
+B166.preheader:
   %2 = add i64 %.202, -1
-  %3 = add i64 %.61, -1
+  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 520
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 528
   br label %B166
 
-B370.endif.loopexit:                              ; preds = %B244
-  %4 = icmp eq i64 %lsr.iv, 0
-  %5 = select i1 %4, i64 2, i64 3
+B370.endif.loopexit:
+  %3 = icmp eq i64 %lsr.iv, 0
+  %4 = select i1 %3, i64 2, i64 3
   br label %B370.endif
 
-B370.endif:                                       ; preds = %B370.endif.loopexit, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel
-  %.9.not.i.lcssa = phi i64 [ %5, %B370.endif.loopexit ], [ 9, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel ]
+B370.endif:
+  %.9.not.i.lcssa = phi i64 [ %4, %B370.endif.loopexit ], [ 9, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel ]
   %.330 = getelementptr i8, ptr %arg.r, i64 448
   store double %arg.t0, ptr %.330, align 8
   store i64 %.9.not.i.lcssa, ptr %retptr, align 8
   br label %common.ret
 }
 
-define i64 @lift(ptr %.1, double %.2, double %.3) local_unnamed_addr {
+
+define i64 @lift(ptr %.1, double %.2, double %.3) local_unnamed_addr #0 {
 entry:
   %.5 = alloca i64, align 8
   store i64 0, ptr %.5, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels4liftB3v43B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, double %.2, double %.3) #9
-  %.10 = load ptr, ptr %excinfo, align 8
-  %.19 = load i64, ptr %.5, align 8
-  %.21 = alloca i32, align 4
-  store i32 0, ptr %.21, align 4
+  %.9 = call i32 @_ZN18biped_adrc_kernels4liftB3v43B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, double %.2, double %.3) #0
   %cond = icmp eq i32 %.9, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.17 = icmp sgt i32 %.9, 0
-  call void @numba_gil_ensure(ptr nonnull %.21)
-  br i1 %.17, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.24, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.19, %.24 ], [ %.19, %entry ]
-  ret i64 %common.ret.op
-
-.24:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.72 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.32")
-  call void @PyErr_WriteUnraisable(ptr %.72)
-  call void @Py_DecRef(ptr %.72)
-  call void @numba_gil_release(ptr nonnull %.21)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.27 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.28 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 4
-  %.29 = icmp sgt i32 %.28, 0
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 0
-  %.34 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 1
-  br i1 %.29, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.9, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.24
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.35 = sext i32 %.34 to i64
-  %.36 = call ptr @PyBytes_FromStringAndSize(ptr %.32, i64 %.35)
-  %.37 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 2
-  %.40 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 3
-  %.42 = call ptr %.40(ptr %.38)
-  %.43 = icmp eq ptr %.42, null
-  br i1 %.43, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.56 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 2
-  %.57 = call ptr @numba_unpickle(ptr %.32, i32 %.34, ptr %.56)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.59 = phi ptr [ %.47, %entry.if.if.if.endif ], [ %.57, %entry.if.if.else ]
-  %.60.not = icmp eq ptr %.59, null
-  br i1 %.60.not, label %.24, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.33")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.47 = call ptr @numba_runtime_build_excinfo_struct(ptr %.36, ptr nonnull %.42)
-  call void @NRT_Free(ptr nonnull %.10)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.59)
-  br label %.24
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.24
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.34")
-  br label %.24
+common.ret:
+  %.19 = load i64, ptr %.5, align 8
+  ret i64 %.19
 }
 
 define i32 @_ZN18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t0, double %arg.t1) local_unnamed_addr {
 B0.endif:
+  %.5.i33 = alloca i64, align 8
+  %excinfo.i = alloca ptr, align 8
+  %.36.i.i2 = alloca ptr, align 8
+  %excinfo.1.i.i3 = alloca ptr, align 8
+  %.5.i = alloca ptr, align 8
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
   %.181 = alloca i8, align 1
   %excinfo.4 = alloca ptr, align 8
   store ptr null, ptr %excinfo.4, align 8
@@ -5843,345 +5087,303 @@ B0.endif:
   %.58 = fcmp oeq double %arg.t0, %.56
   br i1 %.58, label %B62, label %B190
 
-B62:                                              ; preds = %B0.endif
+B62:
   %.11.i6 = getelementptr i8, ptr %arg.r, i64 136
-  %.12.i7 = load i64, ptr %.11.i6, align 8, !noalias !144
+  %.12.i7 = load i64, ptr %.11.i6, align 8, !noalias !171
   %.9443.not.i = icmp slt i64 %.12.i7, 1
   br i1 %.9443.not.i, label %B190, label %B50.lr.ph.i
 
-B50.lr.ph.i:                                      ; preds = %B62
+B50.lr.ph.i:
   %xtraiter.i = and i64 %.12.i7, 7
   %0 = icmp samesign ult i64 %.12.i7, 8
   br i1 %0, label %B50.epil.preheader.i, label %B50.lr.ph.new.i
 
-B50.lr.ph.new.i:                                  ; preds = %B50.lr.ph.i
+B50.lr.ph.new.i:
   %unroll_iter.i = and i64 %.12.i7, 9223372036854775800
   %1 = add nsw i64 %.12.i7, -8
   %2 = lshr i64 %1, 3
-  %3 = add nuw nsw i64 %2, 1
-  %4 = icmp eq i64 %2, 0
-  br i1 %4, label %B50.i.epil.preheader, label %B50.lr.ph.new.i.new
+  %3 = icmp eq i64 %2, 0
+  br i1 %3, label %B56.i.epil, label %B50.lr.ph.new.i.new
 
-B50.lr.ph.new.i.new:                              ; preds = %B50.lr.ph.new.i
-  %unroll_iter = and i64 %3, 4611686018427387902
+B50.lr.ph.new.i.new:
+  %4 = add nuw nsw i64 %2, 1
+  %unroll_iter = and i64 %4, 4611686018427387902
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 520
   br label %B50.i
 
-B50.i:                                            ; preds = %B88.7.i.1, %B50.lr.ph.new.i.new
+B50.i:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B88.7.i.1 ], [ %unroll_iter, %B50.lr.ph.new.i.new ]
-  %low.2.046.i = phi i1 [ false, %B50.lr.ph.new.i.new ], [ %"$phi88.1.2.1.7.i.1", %B88.7.i.1 ]
-  %.1004244.i = phi i64 [ 0, %B50.lr.ph.new.i.new ], [ %.107.73.i.1, %B88.7.i.1 ]
+  %low.2.046.i = phi i1 [ %"$phi88.1.2.1.7.i.1", %B88.7.i.1 ], [ false, %B50.lr.ph.new.i.new ]
+  %.1004244.i = phi i64 [ %.107.73.i.1, %B88.7.i.1 ], [ 0, %B50.lr.ph.new.i.new ]
   br i1 %low.2.046.i, label %B88.7.i.1, label %B56.i
 
-B56.i:                                            ; preds = %B50.i
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 520
-  %.145.i = load i64, ptr %sunkaddr, align 8, !noalias !144
+B56.i:
+  %.145.i = load i64, ptr %sunkaddr, align 8, !noalias !171
   %.146.i = inttoptr i64 %.145.i to ptr
   %5 = shl i64 %.1004244.i, 3
   %scevgep87 = getelementptr i8, ptr %.146.i, i64 56
   %scevgep88 = getelementptr i8, ptr %scevgep87, i64 %5
   %scevgep89 = getelementptr i8, ptr %scevgep88, i64 -56
-  %.149.i = load double, ptr %scevgep89, align 8, !noalias !144
+  %.149.i = load double, ptr %scevgep89, align 8, !noalias !171
   %.152.i = fcmp ugt double %.149.i, 0.000000e+00
   br i1 %.152.i, label %B56.1.i, label %B88.7.i.1
 
-B56.1.i:                                          ; preds = %B56.i
-  %6 = inttoptr i64 %.145.i to ptr
-  %scevgep84 = getelementptr i8, ptr %6, i64 56
-  %7 = shl i64 %.1004244.i, 3
-  %scevgep85 = getelementptr i8, ptr %scevgep84, i64 %7
-  %scevgep86 = getelementptr i8, ptr %scevgep85, i64 -48
-  %.149.1.i = load double, ptr %scevgep86, align 8, !noalias !144
+B56.1.i:
+  %scevgep86 = getelementptr i8, ptr %scevgep88, i64 -48
+  %.149.1.i = load double, ptr %scevgep86, align 8, !noalias !171
   %.152.1.i = fcmp ugt double %.149.1.i, 0.000000e+00
   br i1 %.152.1.i, label %B56.2.i, label %B88.7.i.1
 
-B56.2.i:                                          ; preds = %B56.1.i
-  %8 = inttoptr i64 %.145.i to ptr
-  %scevgep81 = getelementptr i8, ptr %8, i64 56
-  %9 = shl i64 %.1004244.i, 3
-  %scevgep82 = getelementptr i8, ptr %scevgep81, i64 %9
-  %scevgep83 = getelementptr i8, ptr %scevgep82, i64 -40
-  %.149.2.i = load double, ptr %scevgep83, align 8, !noalias !144
+B56.2.i:
+  %scevgep83 = getelementptr i8, ptr %scevgep88, i64 -40
+  %.149.2.i = load double, ptr %scevgep83, align 8, !noalias !171
   %.152.2.i = fcmp ugt double %.149.2.i, 0.000000e+00
   br i1 %.152.2.i, label %B56.3.i, label %B88.7.i.1
 
-B56.3.i:                                          ; preds = %B56.2.i
-  %10 = inttoptr i64 %.145.i to ptr
-  %scevgep78 = getelementptr i8, ptr %10, i64 56
-  %11 = shl i64 %.1004244.i, 3
-  %scevgep79 = getelementptr i8, ptr %scevgep78, i64 %11
-  %scevgep80 = getelementptr i8, ptr %scevgep79, i64 -32
-  %.149.3.i = load double, ptr %scevgep80, align 8, !noalias !144
+B56.3.i:
+  %scevgep80 = getelementptr i8, ptr %scevgep88, i64 -32
+  %.149.3.i = load double, ptr %scevgep80, align 8, !noalias !171
   %.152.3.i = fcmp ugt double %.149.3.i, 0.000000e+00
   br i1 %.152.3.i, label %B56.4.i, label %B88.7.i.1
 
-B56.4.i:                                          ; preds = %B56.3.i
-  %12 = inttoptr i64 %.145.i to ptr
-  %scevgep75 = getelementptr i8, ptr %12, i64 56
-  %13 = shl i64 %.1004244.i, 3
-  %scevgep76 = getelementptr i8, ptr %scevgep75, i64 %13
-  %scevgep77 = getelementptr i8, ptr %scevgep76, i64 -24
-  %.149.4.i = load double, ptr %scevgep77, align 8, !noalias !144
+B56.4.i:
+  %scevgep77 = getelementptr i8, ptr %scevgep88, i64 -24
+  %.149.4.i = load double, ptr %scevgep77, align 8, !noalias !171
   %.152.4.i = fcmp ugt double %.149.4.i, 0.000000e+00
   br i1 %.152.4.i, label %B56.5.i, label %B88.7.i.1
 
-B56.5.i:                                          ; preds = %B56.4.i
-  %14 = inttoptr i64 %.145.i to ptr
-  %scevgep72 = getelementptr i8, ptr %14, i64 56
-  %15 = shl i64 %.1004244.i, 3
-  %scevgep73 = getelementptr i8, ptr %scevgep72, i64 %15
-  %scevgep74 = getelementptr i8, ptr %scevgep73, i64 -16
-  %.149.5.i = load double, ptr %scevgep74, align 8, !noalias !144
+B56.5.i:
+  %scevgep74 = getelementptr i8, ptr %scevgep88, i64 -16
+  %.149.5.i = load double, ptr %scevgep74, align 8, !noalias !171
   %.152.5.i = fcmp ugt double %.149.5.i, 0.000000e+00
   br i1 %.152.5.i, label %B88.6.i, label %B88.7.i.1
 
-B88.6.i:                                          ; preds = %B56.5.i
-  %16 = inttoptr i64 %.145.i to ptr
-  %scevgep69 = getelementptr i8, ptr %16, i64 56
-  %17 = shl i64 %.1004244.i, 3
-  %scevgep70 = getelementptr i8, ptr %scevgep69, i64 %17
-  %scevgep71 = getelementptr i8, ptr %scevgep70, i64 -8
-  %.149.6.i = load double, ptr %scevgep71, align 8, !noalias !144
+B88.6.i:
+  %scevgep71 = getelementptr i8, ptr %scevgep88, i64 -8
+  %.149.6.i = load double, ptr %scevgep71, align 8, !noalias !171
   %.152.6.i = fcmp ugt double %.149.6.i, 0.000000e+00
   br i1 %.152.6.i, label %B56.7.i, label %B88.7.i.1
 
-B56.7.i:                                          ; preds = %B88.6.i
-  %18 = inttoptr i64 %.145.i to ptr
-  %scevgep3.i = getelementptr i8, ptr %18, i64 56
-  %19 = shl i64 %.1004244.i, 3
-  %scevgep68 = getelementptr i8, ptr %scevgep3.i, i64 %19
-  %.149.7.i = load double, ptr %scevgep68, align 8, !noalias !144
-  %.152.7.i = fcmp ole double %.149.7.i, 0.000000e+00
-  br i1 %.152.7.i, label %B88.7.i.1, label %B56.i.1
+B56.7.i:
+  %.149.7.i = load double, ptr %scevgep88, align 8, !noalias !171
+  %.152.7.i = fcmp ugt double %.149.7.i, 0.000000e+00
+  br i1 %.152.7.i, label %B56.i.1, label %B88.7.i.1
 
-B56.i.1:                                          ; preds = %B56.7.i
-  %sunkaddr90 = getelementptr i8, ptr %arg.r, i64 520
-  %.145.i.1 = load i64, ptr %sunkaddr90, align 8, !noalias !144
-  %.146.i.1 = inttoptr i64 %.145.i.1 to ptr
-  %.107.73.i = shl i64 %.1004244.i, 3
-  %scevgep = getelementptr i8, ptr %.146.i.1, i64 120
-  %scevgep46 = getelementptr i8, ptr %scevgep, i64 %.107.73.i
+B56.i.1:
+  %scevgep = getelementptr i8, ptr %.146.i, i64 120
+  %scevgep46 = getelementptr i8, ptr %scevgep, i64 %5
   %scevgep47 = getelementptr i8, ptr %scevgep46, i64 -56
-  %.149.i.1 = load double, ptr %scevgep47, align 8, !noalias !144
+  %.149.i.1 = load double, ptr %scevgep47, align 8, !noalias !171
   %.152.i.1 = fcmp ugt double %.149.i.1, 0.000000e+00
   br i1 %.152.i.1, label %B56.1.i.1, label %B88.7.i.1
 
-B56.1.i.1:                                        ; preds = %B56.i.1
-  %20 = inttoptr i64 %.145.i.1 to ptr
-  %scevgep48 = getelementptr i8, ptr %20, i64 120
-  %21 = shl i64 %.1004244.i, 3
-  %scevgep49 = getelementptr i8, ptr %scevgep48, i64 %21
-  %scevgep50 = getelementptr i8, ptr %scevgep49, i64 -48
-  %.149.1.i.1 = load double, ptr %scevgep50, align 8, !noalias !144
+B56.1.i.1:
+  %scevgep50 = getelementptr i8, ptr %scevgep46, i64 -48
+  %.149.1.i.1 = load double, ptr %scevgep50, align 8, !noalias !171
   %.152.1.i.1 = fcmp ugt double %.149.1.i.1, 0.000000e+00
   br i1 %.152.1.i.1, label %B56.2.i.1, label %B88.7.i.1
 
-B56.2.i.1:                                        ; preds = %B56.1.i.1
-  %22 = inttoptr i64 %.145.i.1 to ptr
-  %scevgep51 = getelementptr i8, ptr %22, i64 120
-  %23 = shl i64 %.1004244.i, 3
-  %scevgep52 = getelementptr i8, ptr %scevgep51, i64 %23
-  %scevgep53 = getelementptr i8, ptr %scevgep52, i64 -40
-  %.149.2.i.1 = load double, ptr %scevgep53, align 8, !noalias !144
+B56.2.i.1:
+  %scevgep53 = getelementptr i8, ptr %scevgep46, i64 -40
+  %.149.2.i.1 = load double, ptr %scevgep53, align 8, !noalias !171
   %.152.2.i.1 = fcmp ugt double %.149.2.i.1, 0.000000e+00
   br i1 %.152.2.i.1, label %B56.3.i.1, label %B88.7.i.1
 
-B56.3.i.1:                                        ; preds = %B56.2.i.1
-  %24 = inttoptr i64 %.145.i.1 to ptr
-  %scevgep54 = getelementptr i8, ptr %24, i64 120
-  %25 = shl i64 %.1004244.i, 3
-  %scevgep55 = getelementptr i8, ptr %scevgep54, i64 %25
-  %scevgep56 = getelementptr i8, ptr %scevgep55, i64 -32
-  %.149.3.i.1 = load double, ptr %scevgep56, align 8, !noalias !144
+B56.3.i.1:
+  %scevgep56 = getelementptr i8, ptr %scevgep46, i64 -32
+  %.149.3.i.1 = load double, ptr %scevgep56, align 8, !noalias !171
   %.152.3.i.1 = fcmp ugt double %.149.3.i.1, 0.000000e+00
   br i1 %.152.3.i.1, label %B56.4.i.1, label %B88.7.i.1
 
-B56.4.i.1:                                        ; preds = %B56.3.i.1
-  %26 = inttoptr i64 %.145.i.1 to ptr
-  %scevgep57 = getelementptr i8, ptr %26, i64 120
-  %27 = shl i64 %.1004244.i, 3
-  %scevgep58 = getelementptr i8, ptr %scevgep57, i64 %27
-  %scevgep59 = getelementptr i8, ptr %scevgep58, i64 -24
-  %.149.4.i.1 = load double, ptr %scevgep59, align 8, !noalias !144
+B56.4.i.1:
+  %scevgep59 = getelementptr i8, ptr %scevgep46, i64 -24
+  %.149.4.i.1 = load double, ptr %scevgep59, align 8, !noalias !171
   %.152.4.i.1 = fcmp ugt double %.149.4.i.1, 0.000000e+00
   br i1 %.152.4.i.1, label %B56.5.i.1, label %B88.7.i.1
 
-B56.5.i.1:                                        ; preds = %B56.4.i.1
-  %28 = inttoptr i64 %.145.i.1 to ptr
-  %scevgep60 = getelementptr i8, ptr %28, i64 120
-  %29 = shl i64 %.1004244.i, 3
-  %scevgep61 = getelementptr i8, ptr %scevgep60, i64 %29
-  %scevgep62 = getelementptr i8, ptr %scevgep61, i64 -16
-  %.149.5.i.1 = load double, ptr %scevgep62, align 8, !noalias !144
+B56.5.i.1:
+  %scevgep62 = getelementptr i8, ptr %scevgep46, i64 -16
+  %.149.5.i.1 = load double, ptr %scevgep62, align 8, !noalias !171
   %.152.5.i.1 = fcmp ugt double %.149.5.i.1, 0.000000e+00
   br i1 %.152.5.i.1, label %B88.6.i.1, label %B88.7.i.1
 
-B88.6.i.1:                                        ; preds = %B56.5.i.1
-  %30 = inttoptr i64 %.145.i.1 to ptr
-  %scevgep63 = getelementptr i8, ptr %30, i64 120
-  %31 = shl i64 %.1004244.i, 3
-  %scevgep64 = getelementptr i8, ptr %scevgep63, i64 %31
-  %scevgep65 = getelementptr i8, ptr %scevgep64, i64 -8
-  %.149.6.i.1 = load double, ptr %scevgep65, align 8, !noalias !144
+B88.6.i.1:
+  %scevgep65 = getelementptr i8, ptr %scevgep46, i64 -8
+  %.149.6.i.1 = load double, ptr %scevgep65, align 8, !noalias !171
   %.152.6.i.1 = fcmp ugt double %.149.6.i.1, 0.000000e+00
   br i1 %.152.6.i.1, label %B56.7.i.1, label %B88.7.i.1
 
-B56.7.i.1:                                        ; preds = %B88.6.i.1
-  %32 = inttoptr i64 %.145.i.1 to ptr
-  %scevgep66 = getelementptr i8, ptr %32, i64 120
-  %33 = shl i64 %.1004244.i, 3
-  %scevgep67 = getelementptr i8, ptr %scevgep66, i64 %33
-  %.149.7.i.1 = load double, ptr %scevgep67, align 8, !noalias !144
+B56.7.i.1:
+  %.149.7.i.1 = load double, ptr %scevgep46, align 8, !noalias !171
   %.152.7.i.1 = fcmp ole double %.149.7.i.1, 0.000000e+00
   br label %B88.7.i.1
 
-B88.7.i.1:                                        ; preds = %B56.7.i.1, %B88.6.i.1, %B56.5.i.1, %B56.4.i.1, %B56.3.i.1, %B56.2.i.1, %B56.1.i.1, %B56.i.1, %B56.7.i, %B88.6.i, %B56.5.i, %B56.4.i, %B56.3.i, %B56.2.i, %B56.1.i, %B56.i, %B50.i
+B88.7.i.1:
   %"$phi88.1.2.1.7.i.1" = phi i1 [ true, %B88.6.i.1 ], [ %.152.7.i.1, %B56.7.i.1 ], [ true, %B56.5.i.1 ], [ true, %B56.3.i.1 ], [ true, %B56.1.i.1 ], [ true, %B56.7.i ], [ true, %B56.i.1 ], [ true, %B56.2.i.1 ], [ true, %B56.4.i.1 ], [ true, %B56.4.i ], [ true, %B56.2.i ], [ true, %B56.i ], [ true, %B50.i ], [ true, %B56.1.i ], [ true, %B56.3.i ], [ true, %B56.5.i ], [ true, %B88.6.i ]
   %.107.73.i.1 = add nuw i64 %.1004244.i, 16
   %lsr.iv.next = add i64 %lsr.iv, -2
   %niter.ncmp.1 = icmp eq i64 %lsr.iv.next, 0
   br i1 %niter.ncmp.1, label %B92.loopexit.unr-lcssa.i.unr-lcssa, label %B50.i
 
-B92.loopexit.unr-lcssa.i.unr-lcssa:               ; preds = %B88.7.i.1
-  %34 = and i64 %3, 1
-  %lcmp.mod.not = icmp eq i64 %34, 0
-  br i1 %lcmp.mod.not, label %B92.loopexit.unr-lcssa.i, label %B50.i.epil.preheader
+B92.loopexit.unr-lcssa.i.unr-lcssa:
+  %6 = and i64 %1, 8
+  %lcmp.mod.not.not = icmp ne i64 %6, 0
+  %brmerge = select i1 %lcmp.mod.not.not, i1 true, i1 %"$phi88.1.2.1.7.i.1"
+  %not.lcmp.mod.not.not = xor i1 %lcmp.mod.not.not, true
+  %"$phi88.1.2.1.7.i.1.mux" = select i1 %not.lcmp.mod.not.not, i1 true, i1 %"$phi88.1.2.1.7.i.1"
+  br i1 %brmerge, label %B92.loopexit.unr-lcssa.i, label %B56.i.epil
 
-B50.i.epil.preheader:                             ; preds = %B92.loopexit.unr-lcssa.i.unr-lcssa, %B50.lr.ph.new.i
-  %low.2.046.i.epil.init = phi i1 [ false, %B50.lr.ph.new.i ], [ %"$phi88.1.2.1.7.i.1", %B92.loopexit.unr-lcssa.i.unr-lcssa ]
-  %.1004244.i.epil.init = phi i64 [ 0, %B50.lr.ph.new.i ], [ %.107.73.i.1, %B92.loopexit.unr-lcssa.i.unr-lcssa ]
-  br i1 %low.2.046.i.epil.init, label %B92.loopexit.unr-lcssa.i, label %B56.i.epil
-
-B56.i.epil:                                       ; preds = %B50.i.epil.preheader
+B56.i.epil:
+  %.1004244.i.epil.init39 = phi i64 [ %.107.73.i.1, %B92.loopexit.unr-lcssa.i.unr-lcssa ], [ 0, %B50.lr.ph.new.i ]
   %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 520
-  %.145.i.epil = load i64, ptr %sunkaddr91, align 8, !noalias !144
+  %.145.i.epil = load i64, ptr %sunkaddr91, align 8, !noalias !171
   %.146.i.epil = inttoptr i64 %.145.i.epil to ptr
-  %35 = shl i64 %.1004244.i.epil.init, 3
-  %scevgep17.i.epil = getelementptr i8, ptr %.146.i.epil, i64 %35
-  %.149.i.epil = load double, ptr %scevgep17.i.epil, align 8, !noalias !144
+  %7 = shl i64 %.1004244.i.epil.init39, 3
+  %scevgep17.i.epil = getelementptr i8, ptr %.146.i.epil, i64 %7
+  %.149.i.epil = load double, ptr %scevgep17.i.epil, align 8, !noalias !171
   %.152.i.epil = fcmp ugt double %.149.i.epil, 0.000000e+00
   br i1 %.152.i.epil, label %B56.1.i.epil, label %B92.loopexit.unr-lcssa.i
 
-B56.1.i.epil:                                     ; preds = %B56.i.epil
-  %sunkaddr92 = inttoptr i64 %.145.i.epil to ptr
-  %sunkaddr93 = mul i64 %.1004244.i.epil.init, 8
-  %sunkaddr94 = getelementptr i8, ptr %sunkaddr92, i64 %sunkaddr93
-  %sunkaddr95 = getelementptr i8, ptr %sunkaddr94, i64 8
-  %.149.1.i.epil = load double, ptr %sunkaddr95, align 8, !noalias !144
+B56.1.i.epil:
+  %sunkaddr95 = getelementptr i8, ptr %scevgep17.i.epil, i64 8
+  %.149.1.i.epil = load double, ptr %sunkaddr95, align 8, !noalias !171
   %.152.1.i.epil = fcmp ugt double %.149.1.i.epil, 0.000000e+00
   br i1 %.152.1.i.epil, label %B56.2.i.epil, label %B92.loopexit.unr-lcssa.i
 
-B56.2.i.epil:                                     ; preds = %B56.1.i.epil
-  %sunkaddr96 = inttoptr i64 %.145.i.epil to ptr
-  %sunkaddr97 = mul i64 %.1004244.i.epil.init, 8
-  %sunkaddr98 = getelementptr i8, ptr %sunkaddr96, i64 %sunkaddr97
-  %sunkaddr99 = getelementptr i8, ptr %sunkaddr98, i64 16
-  %.149.2.i.epil = load double, ptr %sunkaddr99, align 8, !noalias !144
+B56.2.i.epil:
+  %sunkaddr99 = getelementptr i8, ptr %scevgep17.i.epil, i64 16
+  %.149.2.i.epil = load double, ptr %sunkaddr99, align 8, !noalias !171
   %.152.2.i.epil = fcmp ugt double %.149.2.i.epil, 0.000000e+00
   br i1 %.152.2.i.epil, label %B56.3.i.epil, label %B92.loopexit.unr-lcssa.i
 
-B56.3.i.epil:                                     ; preds = %B56.2.i.epil
-  %sunkaddr100 = inttoptr i64 %.145.i.epil to ptr
-  %sunkaddr101 = mul i64 %.1004244.i.epil.init, 8
-  %sunkaddr102 = getelementptr i8, ptr %sunkaddr100, i64 %sunkaddr101
-  %sunkaddr103 = getelementptr i8, ptr %sunkaddr102, i64 24
-  %.149.3.i.epil = load double, ptr %sunkaddr103, align 8, !noalias !144
+B56.3.i.epil:
+  %sunkaddr103 = getelementptr i8, ptr %scevgep17.i.epil, i64 24
+  %.149.3.i.epil = load double, ptr %sunkaddr103, align 8, !noalias !171
   %.152.3.i.epil = fcmp ugt double %.149.3.i.epil, 0.000000e+00
   br i1 %.152.3.i.epil, label %B56.4.i.epil, label %B92.loopexit.unr-lcssa.i
 
-B56.4.i.epil:                                     ; preds = %B56.3.i.epil
-  %sunkaddr104 = inttoptr i64 %.145.i.epil to ptr
-  %sunkaddr105 = mul i64 %.1004244.i.epil.init, 8
-  %sunkaddr106 = getelementptr i8, ptr %sunkaddr104, i64 %sunkaddr105
-  %sunkaddr107 = getelementptr i8, ptr %sunkaddr106, i64 32
-  %.149.4.i.epil = load double, ptr %sunkaddr107, align 8, !noalias !144
+B56.4.i.epil:
+  %sunkaddr107 = getelementptr i8, ptr %scevgep17.i.epil, i64 32
+  %.149.4.i.epil = load double, ptr %sunkaddr107, align 8, !noalias !171
   %.152.4.i.epil = fcmp ugt double %.149.4.i.epil, 0.000000e+00
   br i1 %.152.4.i.epil, label %B56.5.i.epil, label %B92.loopexit.unr-lcssa.i
 
-B56.5.i.epil:                                     ; preds = %B56.4.i.epil
-  %sunkaddr108 = inttoptr i64 %.145.i.epil to ptr
-  %sunkaddr109 = mul i64 %.1004244.i.epil.init, 8
-  %sunkaddr110 = getelementptr i8, ptr %sunkaddr108, i64 %sunkaddr109
-  %sunkaddr111 = getelementptr i8, ptr %sunkaddr110, i64 40
-  %.149.5.i.epil = load double, ptr %sunkaddr111, align 8, !noalias !144
+B56.5.i.epil:
+  %sunkaddr111 = getelementptr i8, ptr %scevgep17.i.epil, i64 40
+  %.149.5.i.epil = load double, ptr %sunkaddr111, align 8, !noalias !171
   %.152.5.i.epil = fcmp ugt double %.149.5.i.epil, 0.000000e+00
   br i1 %.152.5.i.epil, label %B88.6.i.epil, label %B92.loopexit.unr-lcssa.i
 
-B88.6.i.epil:                                     ; preds = %B56.5.i.epil
-  %sunkaddr112 = inttoptr i64 %.145.i.epil to ptr
-  %sunkaddr113 = mul i64 %.1004244.i.epil.init, 8
-  %sunkaddr114 = getelementptr i8, ptr %sunkaddr112, i64 %sunkaddr113
-  %sunkaddr115 = getelementptr i8, ptr %sunkaddr114, i64 48
-  %.149.6.i.epil = load double, ptr %sunkaddr115, align 8, !noalias !144
+B88.6.i.epil:
+  %sunkaddr115 = getelementptr i8, ptr %scevgep17.i.epil, i64 48
+  %.149.6.i.epil = load double, ptr %sunkaddr115, align 8, !noalias !171
   %.152.6.i.epil = fcmp ugt double %.149.6.i.epil, 0.000000e+00
   br i1 %.152.6.i.epil, label %B56.7.i.epil, label %B92.loopexit.unr-lcssa.i
 
-B56.7.i.epil:                                     ; preds = %B88.6.i.epil
-  %sunkaddr116 = inttoptr i64 %.145.i.epil to ptr
-  %sunkaddr117 = mul i64 %.1004244.i.epil.init, 8
-  %sunkaddr118 = getelementptr i8, ptr %sunkaddr116, i64 %sunkaddr117
-  %sunkaddr119 = getelementptr i8, ptr %sunkaddr118, i64 56
-  %.149.7.i.epil = load double, ptr %sunkaddr119, align 8, !noalias !144
+B56.7.i.epil:
+  %sunkaddr119 = getelementptr i8, ptr %scevgep17.i.epil, i64 56
+  %.149.7.i.epil = load double, ptr %sunkaddr119, align 8, !noalias !171
   %.152.7.i.epil = fcmp ole double %.149.7.i.epil, 0.000000e+00
   br label %B92.loopexit.unr-lcssa.i
 
-B92.loopexit.unr-lcssa.i:                         ; preds = %B56.7.i.epil, %B88.6.i.epil, %B56.5.i.epil, %B56.4.i.epil, %B56.3.i.epil, %B56.2.i.epil, %B56.1.i.epil, %B56.i.epil, %B50.i.epil.preheader, %B92.loopexit.unr-lcssa.i.unr-lcssa
-  %"$phi88.1.2.1.7.i.lcssa" = phi i1 [ %"$phi88.1.2.1.7.i.1", %B92.loopexit.unr-lcssa.i.unr-lcssa ], [ true, %B88.6.i.epil ], [ %.152.7.i.epil, %B56.7.i.epil ], [ true, %B56.5.i.epil ], [ true, %B56.3.i.epil ], [ true, %B56.1.i.epil ], [ true, %B50.i.epil.preheader ], [ true, %B56.i.epil ], [ true, %B56.2.i.epil ], [ true, %B56.4.i.epil ]
+B92.loopexit.unr-lcssa.i:
+  %"$phi88.1.2.1.7.i.lcssa" = phi i1 [ %"$phi88.1.2.1.7.i.1.mux", %B92.loopexit.unr-lcssa.i.unr-lcssa ], [ true, %B88.6.i.epil ], [ %.152.7.i.epil, %B56.7.i.epil ], [ true, %B56.5.i.epil ], [ true, %B56.3.i.epil ], [ true, %B56.1.i.epil ], [ true, %B56.4.i.epil ], [ true, %B56.i.epil ], [ true, %B56.2.i.epil ]
   %lcmp.mod.not.i = icmp eq i64 %xtraiter.i, 0
   br i1 %lcmp.mod.not.i, label %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, label %B50.epil.preheader.i
 
-B50.epil.preheader.i:                             ; preds = %B92.loopexit.unr-lcssa.i, %B50.lr.ph.i
+B50.epil.preheader.i:
   %low.2.046.epil.init.i = phi i1 [ false, %B50.lr.ph.i ], [ %"$phi88.1.2.1.7.i.lcssa", %B92.loopexit.unr-lcssa.i ]
   %.1004244.epil.init.i = phi i64 [ 0, %B50.lr.ph.i ], [ %unroll_iter.i, %B92.loopexit.unr-lcssa.i ]
+  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 520
   br label %B50.epil.i
 
-B50.epil.i:                                       ; preds = %B88.epil.i, %B50.epil.preheader.i
+B50.epil.i:
   %lsr.iv.i = phi i64 [ %lsr.iv.next.i, %B88.epil.i ], [ %xtraiter.i, %B50.epil.preheader.i ]
   %low.2.046.epil.i = phi i1 [ %"$phi88.1.2.1.epil.i", %B88.epil.i ], [ %low.2.046.epil.init.i, %B50.epil.preheader.i ]
   %.1004244.epil.i = phi i64 [ %.107.epil.i, %B88.epil.i ], [ %.1004244.epil.init.i, %B50.epil.preheader.i ]
   br i1 %low.2.046.epil.i, label %B88.epil.i, label %B56.epil.i
 
-B56.epil.i:                                       ; preds = %B50.epil.i
-  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 520
-  %.145.epil.i = load i64, ptr %sunkaddr120, align 8, !noalias !144
+B56.epil.i:
+  %.145.epil.i = load i64, ptr %sunkaddr120, align 8, !noalias !171
   %.146.epil.i = inttoptr i64 %.145.epil.i to ptr
-  %36 = shl i64 %.1004244.epil.i, 3
-  %scevgep.i = getelementptr i8, ptr %.146.epil.i, i64 %36
-  %.149.epil.i = load double, ptr %scevgep.i, align 8, !noalias !144
+  %8 = shl i64 %.1004244.epil.i, 3
+  %scevgep.i = getelementptr i8, ptr %.146.epil.i, i64 %8
+  %.149.epil.i = load double, ptr %scevgep.i, align 8, !noalias !171
   %.152.epil.i = fcmp ole double %.149.epil.i, 0.000000e+00
   br label %B88.epil.i
 
-B88.epil.i:                                       ; preds = %B56.epil.i, %B50.epil.i
+B88.epil.i:
   %"$phi88.1.2.1.epil.i" = phi i1 [ true, %B50.epil.i ], [ %.152.epil.i, %B56.epil.i ]
   %lsr.iv.next.i = add nsw i64 %lsr.iv.i, -1
   %.107.epil.i = add nuw nsw i64 %.1004244.epil.i, 1
   %epil.iter.cmp.not.i = icmp eq i64 %lsr.iv.next.i, 0
-  br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, label %B50.epil.i, !llvm.loop !147
+  br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, label %B50.epil.i, !llvm.loop !174
 
-_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit: ; preds = %B88.epil.i, %B92.loopexit.unr-lcssa.i
+_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit:
   %"$phi88.1.2.1.lcssa.i" = phi i1 [ %"$phi88.1.2.1.7.i.lcssa", %B92.loopexit.unr-lcssa.i ], [ %"$phi88.1.2.1.epil.i", %B88.epil.i ]
   br i1 %"$phi88.1.2.1.lcssa.i", label %B92.endif, label %B190
 
-common.ret:                                       ; preds = %B628.endif.if.if, %B628.if.if, %B460.if.if, %B294.if.if, %B294.endif, %B258.endif.if.if, %B754, %B740, %B186
+common.ret:
   %common.ret.op = phi i32 [ 0, %B186 ], [ 0, %B740 ], [ 0, %B754 ], [ %.535, %B628.endif.if.if ], [ %.494, %B628.if.if ], [ %.449, %B460.if.if ], [ %.185, %B258.endif.if.if ], [ 0, %B294.endif ], [ %.241, %B294.if.if ]
   ret i32 %common.ret.op
 
-B186:                                             ; preds = %B92.endif
-  store i64 %.136, ptr %retptr, align 8
+B186:
+  store i64 %.19.i36, ptr %retptr, align 8
   br label %common.ret
 
-B190:                                             ; preds = %B92.endif, %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, %B62, %B0.endif
-  %before.4.0 = phi double [ %.13.i9, %B92.endif ], [ %arg.t0, %B0.endif ], [ %arg.t0, %B62 ], [ %arg.t0, %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
+B190:
+  %before.4.0 = phi double [ %.13.i9, %lift.exit ], [ %arg.t0, %B0.endif ], [ %arg.t0, %B62 ], [ %arg.t0, %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
   %.163 = getelementptr i8, ptr %arg.r, i64 560
   %.164 = load i64, ptr %.163, align 8
   %.165 = inttoptr i64 %.164 to ptr
   %.167 = getelementptr i8, ptr %arg.r, i64 528
   %.168 = load i64, ptr %.167, align 8
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !175
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.13.i.i1 = load double, ptr %.11.i.i, align 8, !noalias !175
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %arg.t1, ptr %.16.i.i, align 8, !noalias !175
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !175
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i1, ptr %.27.i.i, align 8, !noalias !175
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !175
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.165, ptr %.33.i.i, i64 %.35.i.i), !noalias !175
+  switch i32 %.40.i.i, label %entry.if.i [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i:
+  call void @llvm.trap()
+  unreachable
+
+watch.exit:
   %.169 = inttoptr i64 %.168 to ptr
-  %.172 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t1, ptr %.165, ptr %.169)
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !175
+  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
+  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !175
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.169) #0, !noalias !175
   %.174 = icmp sgt i64 %.13.i, 1
   br i1 %.174, label %B258, label %B362.endif
 
-B258:                                             ; preds = %B190
+B258:
   store i8 0, ptr %.181, align 1
   %.185 = call i32 @_ZN18biped_adrc_kernels7suspectB3v54B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addx(ptr nonnull %.181, ptr nonnull %excinfo.4, ptr nonnull %arg.r, double %arg.t0, double %arg.t1, i64 %.13.i.i)
   %.186 = load ptr, ptr %excinfo.4, align 8
@@ -6189,11 +5391,11 @@ B258:                                             ; preds = %B190
   %.194 = select i1 %.193, ptr %.186, ptr undef
   %.195 = load i8, ptr %.181, align 1
   %.198 = icmp eq i8 %.195, 0
+  %9 = icmp eq i32 %.185, 0
   br i1 %.198, label %B258.endif.thread, label %B258.endif
 
-B294:                                             ; preds = %B258.endif.thread
-  %sunkaddr121 = getelementptr i8, ptr %arg.r, i64 528
-  %.226 = load i64, ptr %sunkaddr121, align 8
+B294:
+  %.226 = load i64, ptr %.167, align 8
   %.227 = inttoptr i64 %.226 to ptr
   %.229 = getelementptr i8, ptr %arg.r, i64 520
   %.230 = load i64, ptr %.229, align 8
@@ -6204,17 +5406,17 @@ B294:                                             ; preds = %B258.endif.thread
   switch i32 %.241, label %B294.if.if [
     i32 -2, label %B294.endif
     i32 0, label %B294.endif
-  ], !prof !9
+  ], !prof !8
 
-B400:                                             ; preds = %B628.endif.endif, %B362.endif
+B400:
   %.35690 = phi i64 [ 1, %B362.endif ], [ %.363, %B628.endif.endif ]
   %before.3.0 = phi double [ %before.4.0, %B362.endif ], [ %"$phi446.1.2.1", %B628.endif.endif ]
-  %37 = add i64 %41, %.35690
-  %exitcond.not = icmp eq i64 %37, 1
+  %10 = sub i64 %.35690, %.13.i.i
+  %exitcond.not = icmp eq i64 %10, 1
   br i1 %exitcond.not, label %B754, label %B402
 
-B402:                                             ; preds = %B400
-  %.393 = icmp eq i64 %37, 0
+B402:
+  %.393 = icmp eq i64 %.35690, %.13.i.i
   %.404 = sitofp i64 %.35690 to double
   %.405 = fmul double %.6.i, %.404
   %.411 = fdiv double %.405, %.407
@@ -6223,125 +5425,162 @@ B402:                                             ; preds = %B400
   %.425 = icmp slt i64 %.35690, %.13.i.i
   br i1 %.425, label %B460, label %B560
 
-B460:                                             ; preds = %B402
-  %.432 = tail call ptr @retake(ptr nonnull %arg.r, double %arg.t0, double %"$phi446.1.2.1")
-  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 536
+B460:
+  %.9.i = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull poison, ptr nonnull %arg.r, double %arg.t0, double %"$phi446.1.2.1") #0
   %.436 = load i64, ptr %sunkaddr122, align 8
   %.437 = inttoptr i64 %.436 to ptr
-  %sunkaddr123 = getelementptr i8, ptr %arg.r, i64 528
-  %.440 = load i64, ptr %sunkaddr123, align 8
+  %.440 = load i64, ptr %.167, align 8
   %.441 = inttoptr i64 %.440 to ptr
-  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 136
   %.444 = load i64, ptr %sunkaddr124, align 8
   %.449 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.445, ptr nonnull %excinfo.6, ptr %.437, ptr %.441, i64 %.444)
   switch i32 %.449, label %B460.if.if [
     i32 -2, label %B628
     i32 0, label %B628
-  ], !prof !9
+  ], !prof !8
 
-B560:                                             ; preds = %B402
-  %38 = icmp sgt i64 %.13.i, 1
-  br i1 %38, label %B572, label %B628
+B560:
+  br i1 %.174, label %B572, label %B628
 
-B572:                                             ; preds = %B560
-  %sunkaddr125 = getelementptr i8, ptr %arg.r, i64 560
-  %.475 = load i64, ptr %sunkaddr125, align 8
+B572:
+  %.475 = load i64, ptr %.163, align 8
   %.476 = inttoptr i64 %.475 to ptr
-  %sunkaddr126 = getelementptr i8, ptr %arg.r, i64 528
-  %.479 = load i64, ptr %sunkaddr126, align 8
+  %.479 = load i64, ptr %.167, align 8
+  %.10.i.i5 = load double, ptr %.8.i.i, align 8, !noalias !179
+  %.13.i.i7 = load double, ptr %.11.i.i, align 8, !noalias !179
+  %.15.i.i9 = load i64, ptr %.14.i.i, align 8, !noalias !179
+  %.16.i.i10 = inttoptr i64 %.15.i.i9 to ptr
+  store double %arg.t1, ptr %.16.i.i10, align 8, !noalias !179
+  %.20.i.i11 = load i64, ptr %.14.i.i, align 8, !noalias !179
+  %.21.i.i12 = inttoptr i64 %.20.i.i11 to ptr
+  %.22.i.i13 = getelementptr i8, ptr %.21.i.i12, i64 8
+  store double %.10.i.i5, ptr %.22.i.i13, align 8, !noalias !179
+  %.25.i.i14 = load i64, ptr %.14.i.i, align 8, !noalias !179
+  %.26.i.i15 = inttoptr i64 %.25.i.i14 to ptr
+  %.27.i.i16 = getelementptr i8, ptr %.26.i.i15, i64 16
+  store double %.13.i.i7, ptr %.27.i.i16, align 8, !noalias !179
+  %.31.i.i17 = load i64, ptr %.14.i.i, align 8, !noalias !179
+  %.32.i.i18 = inttoptr i64 %.31.i.i17 to ptr
+  %.33.i.i19 = getelementptr i8, ptr %.32.i.i18, i64 24
+  %.35.i.i21 = load i64, ptr %.34.i.i, align 8, !noalias !179
+  %.40.i.i22 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i2, ptr nonnull %excinfo.1.i.i3, ptr readonly %.476, ptr %.33.i.i19, i64 %.35.i.i21), !noalias !179
+  switch i32 %.40.i.i22, label %entry.if.i31 [
+    i32 -2, label %watch.exit32
+    i32 0, label %watch.exit32
+  ], !prof !8
+
+entry.if.i31:
+  call void @llvm.trap()
+  unreachable
+
+watch.exit32:
   %.480 = inttoptr i64 %.479 to ptr
-  %.483 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t1, ptr %.476, ptr %.480)
+  %.63.i.i24 = load i64, ptr %.62.i.i, align 8, !noalias !179
+  %.65.i.i26 = load i64, ptr %.64.i.i, align 8, !noalias !179
+  %.66.i.i27 = inttoptr i64 %.65.i.i26 to ptr
+  %.68.i.i28 = load i64, ptr %.14.i.i, align 8, !noalias !179
+  %.69.i.i29 = inttoptr i64 %.68.i.i28 to ptr
+  %.70.i.i30 = inttoptr i64 %.63.i.i24 to ptr
+  call void %.70.i.i30(ptr %.66.i.i27, ptr %.69.i.i29, ptr %.480) #0, !noalias !179
   br label %B628
 
-B628:                                             ; preds = %B572, %B560, %B460, %B460
+B628:
   store i64 0, ptr %.490, align 8
   %.494 = call i32 @_ZN18biped_adrc_kernels7crossedB3v48B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addd(ptr nonnull %.490, ptr nonnull %excinfo.7, ptr nonnull %arg.r, double %arg.t0, double %before.3.0, double %"$phi446.1.2.1")
   %.504 = load i64, ptr %.490, align 8
   %cond13 = icmp eq i32 %.494, 0
-  br i1 %cond13, label %B628.endif, label %B628.if.if, !prof !8
+  br i1 %cond13, label %B628.endif, label %B628.if.if, !prof !24
 
-B740:                                             ; preds = %B628.endif.endif
+B740:
   store i64 %.504, ptr %retptr, align 8
   br label %common.ret
 
-B754:                                             ; preds = %B400
+B754:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B92.endif:                                        ; preds = %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
+B92.endif:
   %.102 = fadd double %arg.t0, 0x3EB0C6F7A0B5ED8D
   %.12.i8 = fcmp olt double %arg.t1, %.102
   %.13.i9 = select i1 %.12.i8, double %arg.t1, double %.102
-  %.136 = tail call i64 @lift(ptr nonnull %arg.r, double %arg.t0, double %.13.i9)
-  %.141.not = icmp eq i64 %.136, 0
+  store i64 0, ptr %.5.i33, align 8
+  %.9.i34 = call i32 @_ZN18biped_adrc_kernels4liftB3v43B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i33, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.t0, double %.13.i9) #0
+  %cond.i = icmp eq i32 %.9.i34, 0
+  br i1 %cond.i, label %lift.exit, label %entry.if.i35, !prof !24
+
+entry.if.i35:
+  tail call void @llvm.trap()
+  unreachable
+
+lift.exit:
+  %.19.i36 = load i64, ptr %.5.i33, align 8
+  %.141.not = icmp eq i64 %.19.i36, 0
   br i1 %.141.not, label %B190, label %B186
 
-B258.endif:                                       ; preds = %B258
-  %39 = icmp eq i32 %.185, 0
-  br i1 %39, label %B362.endif, label %B258.endif.if.if, !prof !8
+B258.endif:
+  br i1 %9, label %B362.endif, label %B258.endif.if.if, !prof !24
 
-B258.endif.thread:                                ; preds = %B258
-  %40 = icmp eq i32 %.185, 0
-  br i1 %40, label %B294, label %B258.endif.if.if, !prof !8
+B258.endif.thread:
+  br i1 %9, label %B294, label %B258.endif.if.if, !prof !24
 
-B258.endif.if.if:                                 ; preds = %B258.endif.thread, %B258.endif
+B258.endif.if.if:
   store ptr %.194, ptr %excinfo, align 8
   br label %common.ret
 
-B294.endif:                                       ; preds = %B294, %B294
+B294.endif:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B294.if.if:                                       ; preds = %B294
+B294.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B362.endif:                                       ; preds = %B258.endif, %B190
+B362.endif:
   %.407 = uitofp nneg i64 %.13.i.i to double
-  %41 = sub i64 0, %.13.i.i
+  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 536
+  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 136
+  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 520
   br label %B400
 
-B460.if.if:                                       ; preds = %B460
+B460.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B628.endif:                                       ; preds = %B628
-  %sunkaddr127 = getelementptr i8, ptr %arg.r, i64 528
-  %.522 = load i64, ptr %sunkaddr127, align 8
+B628.endif:
+  %.522 = load i64, ptr %.167, align 8
   %.523 = inttoptr i64 %.522 to ptr
-  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 520
   %.526 = load i64, ptr %sunkaddr128, align 8
   %.527 = inttoptr i64 %.526 to ptr
-  %sunkaddr129 = getelementptr i8, ptr %arg.r, i64 136
-  %.530 = load i64, ptr %sunkaddr129, align 8
+  %.530 = load i64, ptr %sunkaddr124, align 8
   %.535 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.531, ptr nonnull %excinfo.8, ptr %.523, ptr %.527, i64 %.530)
   switch i32 %.535, label %B628.endif.if.if [
     i32 -2, label %B628.endif.endif
     i32 0, label %B628.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B628.if.if:                                       ; preds = %B628
+B628.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B628.endif.endif:                                 ; preds = %B628.endif, %B628.endif
+B628.endif.endif:
   %.556.not = icmp eq i64 %.504, 0
   %.363 = add nuw i64 %.35690, 1
   br i1 %.556.not, label %B400, label %B740
 
-B628.endif.if.if:                                 ; preds = %B628.endif
+B628.endif.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 }
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
+
 declare double @llvm.ceil.f64(double) #2
 
-; Function Attrs: nocallback nocreateundeforpoison nofree nosync nounwind speculatable willreturn memory(none)
+
 declare i64 @llvm.smax.i64(i64, i64) #2
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels7suspectB3v54B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t0, double %arg.t1, i64 %arg.count) local_unnamed_addr {
 B0.endif:
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
   %.201 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 520
@@ -6355,41 +5594,46 @@ B0.endif:
   %.arg.count = tail call i64 @llvm.smax.i64(i64 %arg.count, i64 0)
   %.187 = fsub double %arg.t1, %arg.t0
   %.191 = sitofp i64 %arg.count to double
-  %0 = sub i64 0, %.arg.count
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 528
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 536
+  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 576
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
   br label %B120
 
-B120:                                             ; preds = %B400, %B0.endif
+B120:
   %.13266 = phi i64 [ 1, %B0.endif ], [ %.139, %B400 ]
   %v2.2.0 = phi double [ %.33, %B0.endif ], [ %.258, %B400 ]
   %v1.2.0 = phi double [ %.27, %B0.endif ], [ %.255, %B400 ]
   %v0.2.0 = phi double [ %.21, %B0.endif ], [ %.252, %B400 ]
-  %1 = add i64 %0, %.13266
-  %exitcond.not = icmp eq i64 %1, 1
+  %0 = sub i64 %.13266, %.arg.count
+  %exitcond.not = icmp eq i64 %0, 1
   br i1 %exitcond.not, label %B452, label %B122
 
-B122:                                             ; preds = %B120
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 528
+B122:
   %.169 = load i64, ptr %sunkaddr3, align 8
   %.170 = inttoptr i64 %.169 to ptr
   %.176 = icmp slt i64 %.13266, %arg.count
   br i1 %.176, label %B150, label %B292
 
-B150:                                             ; preds = %B122
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 536
+B150:
   %.180 = load i64, ptr %sunkaddr, align 8
   %.190 = sitofp i64 %.13266 to double
   %.195 = fdiv double %.190, %.191
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 576
   %.198 = load i64, ptr %sunkaddr4, align 8
   %.199 = inttoptr i64 %.198 to ptr
   %.205 = call i32 @_ZN18biped_adrc_kernels7hermiteB3v55B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add10float64_2a(ptr nonnull %.201, ptr nonnull %excinfo.1, ptr nonnull %arg.r, double %.187, double %.195, ptr %.199)
   switch i32 %.205, label %B150.endif.if.if [
     i32 -2, label %B150.endif.endif
     i32 0, label %B150.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B292:                                             ; preds = %B150.endif.endif, %B122
-  %w.2.1 = phi ptr [ %.181, %B150.endif.endif ], [ %.170, %B122 ]
+B292:
+  %w.2.1 = phi ptr [ %.181, %watch.exit ], [ %.170, %B122 ]
   %.252 = load double, ptr %w.2.1, align 8
   %.254 = getelementptr i8, ptr %w.2.1, i64 8
   %.255 = load double, ptr %.254, align 8
@@ -6400,97 +5644,124 @@ B292:                                             ; preds = %B150.endif.endif, %
   %or.cond = select i1 %.271, i1 %.280, i1 false
   br i1 %or.cond, label %B432, label %B370
 
-B370:                                             ; preds = %B292
+B370:
   %.289 = fcmp ogt double %v1.2.0, 0.000000e+00
   %.298 = fcmp ole double %.255, 0.000000e+00
   %or.cond62 = select i1 %.289, i1 %.298, i1 false
   br i1 %or.cond62, label %B432, label %B400
 
-B400:                                             ; preds = %B370
+B400:
   %.307 = fcmp ogt double %v2.2.0, 0.000000e+00
   %.316 = fcmp ole double %.258, 0.000000e+00
   %or.cond63 = select i1 %.307, i1 %.316, i1 false
   %.139 = add nuw i64 %.13266, 1
   br i1 %or.cond63, label %B432, label %B120
 
-common.ret:                                       ; preds = %B150.endif.if.if, %B452, %B432
+common.ret:
   %common.ret.op = phi i32 [ 0, %B432 ], [ 0, %B452 ], [ %.205, %B150.endif.if.if ]
   ret i32 %common.ret.op
 
-B432:                                             ; preds = %B400, %B370, %B292
+B432:
   store i8 1, ptr %retptr, align 1
   br label %common.ret
 
-B452:                                             ; preds = %B120
+B452:
   store i8 0, ptr %retptr, align 1
   br label %common.ret
 
-B150.endif.endif:                                 ; preds = %B150, %B150
-  %.181 = inttoptr i64 %.180 to ptr
+B150.endif.endif:
   %.230 = fmul double %.187, %.190
   %.238 = fdiv double %.230, %.191
   %.240 = fadd double %arg.t0, %.238
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 576
-  %.243 = load i64, ptr %sunkaddr5, align 8
+  %.243 = load i64, ptr %sunkaddr4, align 8
   %.244 = inttoptr i64 %.243 to ptr
-  %.246 = tail call ptr @watch(ptr nonnull %arg.r, double %.240, ptr %.244, ptr %.181)
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !183
+  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !183
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %.240, ptr %.16.i.i, align 8, !noalias !183
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !183
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !183
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !183
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.244, ptr %.33.i.i, i64 %.35.i.i), !noalias !183
+  switch i32 %.40.i.i, label %entry.if.i [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i:
+  call void @llvm.trap()
+  unreachable
+
+watch.exit:
+  %.181 = inttoptr i64 %.180 to ptr
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !183
+  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !183
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.181) #0, !noalias !183
   br label %B292
 
-B150.endif.if.if:                                 ; preds = %B150
+B150.endif.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(read, argmem: readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels7hermiteB3v55B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.h, double %arg.s, ptr writeonly %arg.out) local_unnamed_addr #5 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels7hermiteB3v55B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.h, double %arg.s, ptr writeonly %arg.out) local_unnamed_addr #0 {
 B0.endif:
   %.17 = getelementptr i8, ptr %arg.r, i64 72
   %.18 = load i64, ptr %.17, align 8
   %.10040.not = icmp slt i64 %.18, 1
   br i1 %.10040.not, label %B300, label %B46.lr.ph
 
-B46.lr.ph:                                        ; preds = %B0.endif
+B46.lr.ph:
   %.152 = fsub double 1.000000e+00, %arg.s
   %.195 = fmul double %arg.s, %.152
   %xtraiter = and i64 %.18, 3
   %0 = icmp samesign ult i64 %.18, 4
   br i1 %0, label %B46.epil.preheader, label %B46.lr.ph.new
 
-B46.lr.ph.new:                                    ; preds = %B46.lr.ph
+B46.lr.ph.new:
   %1 = and i64 %.18, 9223372036854775804
-  %2 = lshr i64 %.18, 2
-  %3 = trunc i64 %2 to i61
-  %4 = zext i61 %3 to i64
-  %5 = mul nsw i64 %4, -4
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 560
+  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 544
   br label %B46
 
-B46:                                              ; preds = %B46, %B46.lr.ph.new
+B46:
   %lsr.iv7 = phi i64 [ %lsr.iv.next8, %B46 ], [ 3, %B46.lr.ph.new ]
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 560
   %.140 = load i64, ptr %sunkaddr, align 8
   %.141 = inttoptr i64 %.140 to ptr
-  %6 = shl i64 %lsr.iv7, 3
-  %scevgep36 = getelementptr i8, ptr %.141, i64 %6
+  %2 = shl i64 %lsr.iv7, 3
+  %scevgep36 = getelementptr i8, ptr %.141, i64 %2
   %scevgep37 = getelementptr i8, ptr %scevgep36, i64 -24
   %.143 = load double, ptr %scevgep37, align 8
-  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 544
   %.146 = load i64, ptr %sunkaddr38, align 8
   %.147 = inttoptr i64 %.146 to ptr
-  %7 = shl i64 %lsr.iv7, 3
-  %scevgep34 = getelementptr i8, ptr %.147, i64 %7
+  %scevgep34 = getelementptr i8, ptr %.147, i64 %2
   %scevgep35 = getelementptr i8, ptr %scevgep34, i64 -24
   %.149 = load double, ptr %scevgep35, align 8
   %.150 = fsub double %.143, %.149
-  %sunkaddr39 = getelementptr i8, ptr %arg.r, i64 72
-  %.159 = load i64, ptr %sunkaddr39, align 8
-  %8 = add i64 %lsr.iv7, %.159
-  %9 = add i64 %8, -3
-  %.161 = getelementptr double, ptr %.147, i64 %9
+  %.159 = load i64, ptr %.17, align 8
+  %3 = add nsw i64 %lsr.iv7, -3
+  %4 = add i64 %3, %.159
+  %.161 = getelementptr double, ptr %.147, i64 %4
   %.162 = load double, ptr %.161, align 8
   %.164 = fmul double %arg.h, %.162
   %.165 = fsub double %.164, %.150
   %.166 = fmul double %.152, %.165
-  %.175 = getelementptr double, ptr %.141, i64 %9
+  %.175 = getelementptr double, ptr %.141, i64 %4
   %.176 = load double, ptr %.175, align 8
   %.178 = fmul double %arg.h, %.176
   %.179 = fsub double %.178, %.150
@@ -6500,32 +5771,29 @@ B46:                                              ; preds = %B46, %B46.lr.ph.new
   %.191 = fadd double %.149, %.190
   %.196 = fmul double %.195, %.182
   %.197 = fadd double %.191, %.196
-  %10 = shl i64 %lsr.iv7, 3
-  %scevgep26 = getelementptr i8, ptr %arg.out, i64 %10
+  %scevgep26 = getelementptr i8, ptr %arg.out, i64 %2
   %scevgep33 = getelementptr i8, ptr %scevgep26, i64 -24
   store double %.197, ptr %scevgep33, align 8
   %.140.1 = load i64, ptr %sunkaddr, align 8
   %.141.1 = inttoptr i64 %.140.1 to ptr
-  %11 = shl i64 %lsr.iv7, 3
-  %scevgep19 = getelementptr i8, ptr %.141.1, i64 %11
+  %scevgep19 = getelementptr i8, ptr %.141.1, i64 %2
   %scevgep20 = getelementptr i8, ptr %scevgep19, i64 -16
   %.143.1 = load double, ptr %scevgep20, align 8
   %.146.1 = load i64, ptr %sunkaddr38, align 8
   %.147.1 = inttoptr i64 %.146.1 to ptr
-  %12 = shl i64 %lsr.iv7, 3
-  %scevgep17 = getelementptr i8, ptr %.147.1, i64 %12
+  %scevgep17 = getelementptr i8, ptr %.147.1, i64 %2
   %scevgep18 = getelementptr i8, ptr %scevgep17, i64 -16
   %.149.1 = load double, ptr %scevgep18, align 8
   %.150.1 = fsub double %.143.1, %.149.1
-  %.159.1 = load i64, ptr %sunkaddr39, align 8
-  %13 = add i64 %lsr.iv7, %.159.1
-  %14 = add i64 %13, -2
-  %.161.1 = getelementptr double, ptr %.147.1, i64 %14
+  %.159.1 = load i64, ptr %.17, align 8
+  %5 = add nsw i64 %lsr.iv7, -2
+  %6 = add i64 %5, %.159.1
+  %.161.1 = getelementptr double, ptr %.147.1, i64 %6
   %.162.1 = load double, ptr %.161.1, align 8
   %.164.1 = fmul double %arg.h, %.162.1
   %.165.1 = fsub double %.164.1, %.150.1
   %.166.1 = fmul double %.152, %.165.1
-  %.175.1 = getelementptr double, ptr %.141.1, i64 %14
+  %.175.1 = getelementptr double, ptr %.141.1, i64 %6
   %.176.1 = load double, ptr %.175.1, align 8
   %.178.1 = fmul double %arg.h, %.176.1
   %.179.1 = fsub double %.178.1, %.150.1
@@ -6535,32 +5803,28 @@ B46:                                              ; preds = %B46, %B46.lr.ph.new
   %.191.1 = fadd double %.149.1, %.190.1
   %.196.1 = fmul double %.195, %.182.1
   %.197.1 = fadd double %.191.1, %.196.1
-  %15 = shl i64 %lsr.iv7, 3
-  %scevgep24 = getelementptr i8, ptr %arg.out, i64 %15
-  %scevgep25 = getelementptr i8, ptr %scevgep24, i64 -16
+  %scevgep25 = getelementptr i8, ptr %scevgep26, i64 -16
   store double %.197.1, ptr %scevgep25, align 8
   %.140.2 = load i64, ptr %sunkaddr, align 8
   %.141.2 = inttoptr i64 %.140.2 to ptr
-  %16 = shl i64 %lsr.iv7, 3
-  %scevgep15 = getelementptr i8, ptr %.141.2, i64 %16
+  %scevgep15 = getelementptr i8, ptr %.141.2, i64 %2
   %scevgep16 = getelementptr i8, ptr %scevgep15, i64 -8
   %.143.2 = load double, ptr %scevgep16, align 8
   %.146.2 = load i64, ptr %sunkaddr38, align 8
   %.147.2 = inttoptr i64 %.146.2 to ptr
-  %17 = shl i64 %lsr.iv7, 3
-  %scevgep13 = getelementptr i8, ptr %.147.2, i64 %17
+  %scevgep13 = getelementptr i8, ptr %.147.2, i64 %2
   %scevgep14 = getelementptr i8, ptr %scevgep13, i64 -8
   %.149.2 = load double, ptr %scevgep14, align 8
   %.150.2 = fsub double %.143.2, %.149.2
-  %.159.2 = load i64, ptr %sunkaddr39, align 8
-  %18 = add i64 %lsr.iv7, %.159.2
-  %19 = add i64 %18, -1
-  %.161.2 = getelementptr double, ptr %.147.2, i64 %19
+  %.159.2 = load i64, ptr %.17, align 8
+  %7 = add nsw i64 %lsr.iv7, -1
+  %8 = add i64 %7, %.159.2
+  %.161.2 = getelementptr double, ptr %.147.2, i64 %8
   %.162.2 = load double, ptr %.161.2, align 8
   %.164.2 = fmul double %arg.h, %.162.2
   %.165.2 = fsub double %.164.2, %.150.2
   %.166.2 = fmul double %.152, %.165.2
-  %.175.2 = getelementptr double, ptr %.141.2, i64 %19
+  %.175.2 = getelementptr double, ptr %.141.2, i64 %8
   %.176.2 = load double, ptr %.175.2, align 8
   %.178.2 = fmul double %arg.h, %.176.2
   %.179.2 = fsub double %.178.2, %.150.2
@@ -6570,29 +5834,25 @@ B46:                                              ; preds = %B46, %B46.lr.ph.new
   %.191.2 = fadd double %.149.2, %.190.2
   %.196.2 = fmul double %.195, %.182.2
   %.197.2 = fadd double %.191.2, %.196.2
-  %20 = shl i64 %lsr.iv7, 3
-  %scevgep22 = getelementptr i8, ptr %arg.out, i64 %20
-  %scevgep23 = getelementptr i8, ptr %scevgep22, i64 -8
+  %scevgep23 = getelementptr i8, ptr %scevgep26, i64 -8
   store double %.197.2, ptr %scevgep23, align 8
   %.140.3 = load i64, ptr %sunkaddr, align 8
   %.141.3 = inttoptr i64 %.140.3 to ptr
-  %21 = shl i64 %lsr.iv7, 3
-  %scevgep12 = getelementptr i8, ptr %.141.3, i64 %21
+  %scevgep12 = getelementptr i8, ptr %.141.3, i64 %2
   %.143.3 = load double, ptr %scevgep12, align 8
   %.146.3 = load i64, ptr %sunkaddr38, align 8
   %.147.3 = inttoptr i64 %.146.3 to ptr
-  %22 = shl i64 %lsr.iv7, 3
-  %scevgep10 = getelementptr i8, ptr %.147.3, i64 %22
+  %scevgep10 = getelementptr i8, ptr %.147.3, i64 %2
   %.149.3 = load double, ptr %scevgep10, align 8
   %.150.3 = fsub double %.143.3, %.149.3
-  %.159.3 = load i64, ptr %sunkaddr39, align 8
-  %23 = add i64 %lsr.iv7, %.159.3
-  %.161.3 = getelementptr double, ptr %.147.3, i64 %23
+  %.159.3 = load i64, ptr %.17, align 8
+  %9 = add i64 %.159.3, %lsr.iv7
+  %.161.3 = getelementptr double, ptr %.147.3, i64 %9
   %.162.3 = load double, ptr %.161.3, align 8
   %.164.3 = fmul double %arg.h, %.162.3
   %.165.3 = fsub double %.164.3, %.150.3
   %.166.3 = fmul double %.152, %.165.3
-  %.175.3 = getelementptr double, ptr %.141.3, i64 %23
+  %.175.3 = getelementptr double, ptr %.141.3, i64 %9
   %.176.3 = load double, ptr %.175.3, align 8
   %.178.3 = fmul double %arg.h, %.176.3
   %.179.3 = fsub double %.178.3, %.150.3
@@ -6602,47 +5862,44 @@ B46:                                              ; preds = %B46, %B46.lr.ph.new
   %.191.3 = fadd double %.149.3, %.190.3
   %.196.3 = fmul double %.195, %.182.3
   %.197.3 = fadd double %.191.3, %.196.3
-  %24 = shl i64 %lsr.iv7, 3
-  %scevgep21 = getelementptr i8, ptr %arg.out, i64 %24
-  store double %.197.3, ptr %scevgep21, align 8
+  store double %.197.3, ptr %scevgep26, align 8
   %lsr.iv.next8 = add nuw nsw i64 %lsr.iv7, 4
-  %25 = add i64 %5, %lsr.iv.next8
-  %niter.ncmp.3 = icmp eq i64 %25, 3
+  %10 = sub nsw i64 %lsr.iv.next8, %1
+  %niter.ncmp.3 = icmp eq i64 %10, 3
   br i1 %niter.ncmp.3, label %B300.loopexit.unr-lcssa, label %B46
 
-B300.loopexit.unr-lcssa:                          ; preds = %B46
+B300.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B300, label %B46.epil.preheader
 
-B46.epil.preheader:                               ; preds = %B300.loopexit.unr-lcssa, %B46.lr.ph
+B46.epil.preheader:
   %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %1, %B300.loopexit.unr-lcssa ]
+  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 560
+  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 544
   br label %B46.epil
 
-B46.epil:                                         ; preds = %B46.epil, %B46.epil.preheader
+B46.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B46.epil ], [ %xtraiter, %B46.epil.preheader ]
   %.1063941.epil = phi i64 [ %.113.epil, %B46.epil ], [ %.1063941.epil.init, %B46.epil.preheader ]
   %.113.epil = add nuw nsw i64 %.1063941.epil, 1
-  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 560
   %.140.epil = load i64, ptr %sunkaddr40, align 8
   %.141.epil = inttoptr i64 %.140.epil to ptr
-  %26 = shl i64 %.1063941.epil, 3
-  %scevgep3 = getelementptr i8, ptr %.141.epil, i64 %26
+  %11 = shl i64 %.1063941.epil, 3
+  %scevgep3 = getelementptr i8, ptr %.141.epil, i64 %11
   %.143.epil = load double, ptr %scevgep3, align 8
-  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 544
   %.146.epil = load i64, ptr %sunkaddr41, align 8
   %.147.epil = inttoptr i64 %.146.epil to ptr
-  %scevgep2 = getelementptr i8, ptr %.147.epil, i64 %26
+  %scevgep2 = getelementptr i8, ptr %.147.epil, i64 %11
   %.149.epil = load double, ptr %scevgep2, align 8
   %.150.epil = fsub double %.143.epil, %.149.epil
-  %sunkaddr42 = getelementptr i8, ptr %arg.r, i64 72
-  %.159.epil = load i64, ptr %sunkaddr42, align 8
-  %27 = add i64 %.1063941.epil, %.159.epil
-  %.161.epil = getelementptr double, ptr %.147.epil, i64 %27
+  %.159.epil = load i64, ptr %.17, align 8
+  %12 = add i64 %.159.epil, %.1063941.epil
+  %.161.epil = getelementptr double, ptr %.147.epil, i64 %12
   %.162.epil = load double, ptr %.161.epil, align 8
   %.164.epil = fmul double %arg.h, %.162.epil
   %.165.epil = fsub double %.164.epil, %.150.epil
   %.166.epil = fmul double %.152, %.165.epil
-  %.175.epil = getelementptr double, ptr %.141.epil, i64 %27
+  %.175.epil = getelementptr double, ptr %.141.epil, i64 %12
   %.176.epil = load double, ptr %.175.epil, align 8
   %.178.epil = fmul double %arg.h, %.176.epil
   %.179.epil = fsub double %.178.epil, %.150.epil
@@ -6652,107 +5909,48 @@ B46.epil:                                         ; preds = %B46.epil, %B46.epil
   %.191.epil = fadd double %.149.epil, %.190.epil
   %.196.epil = fmul double %.195, %.182.epil
   %.197.epil = fadd double %.191.epil, %.196.epil
-  %28 = shl i64 %.1063941.epil, 3
-  %scevgep6 = getelementptr i8, ptr %arg.out, i64 %28
+  %scevgep6 = getelementptr i8, ptr %arg.out, i64 %11
   store double %.197.epil, ptr %scevgep6, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B300, label %B46.epil, !llvm.loop !148
+  br i1 %epil.iter.cmp.not, label %B300, label %B46.epil, !llvm.loop !187
 
-B300:                                             ; preds = %B46.epil, %B300.loopexit.unr-lcssa, %B0.endif
+B300:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-define i64 @event(ptr %.1, double %.2, double %.3) local_unnamed_addr {
+
+define i64 @event(ptr %.1, double %.2, double %.3) local_unnamed_addr #0 {
 entry:
   %.5 = alloca i64, align 8
   store i64 0, ptr %.5, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, double %.2, double %.3) #9
-  %.10 = load ptr, ptr %excinfo, align 8
-  %.19 = load i64, ptr %.5, align 8
-  %.21 = alloca i32, align 4
-  store i32 0, ptr %.21, align 4
+  %.9 = call i32 @_ZN18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, double %.2, double %.3) #0
   %cond = icmp eq i32 %.9, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.17 = icmp sgt i32 %.9, 0
-  call void @numba_gil_ensure(ptr nonnull %.21)
-  br i1 %.17, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.24, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.19, %.24 ], [ %.19, %entry ]
-  ret i64 %common.ret.op
-
-.24:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.72 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.35")
-  call void @PyErr_WriteUnraisable(ptr %.72)
-  call void @Py_DecRef(ptr %.72)
-  call void @numba_gil_release(ptr nonnull %.21)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.27 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.28 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 4
-  %.29 = icmp sgt i32 %.28, 0
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 0
-  %.34 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 1
-  br i1 %.29, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.9, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.24
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.35 = sext i32 %.34 to i64
-  %.36 = call ptr @PyBytes_FromStringAndSize(ptr %.32, i64 %.35)
-  %.37 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 2
-  %.40 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 3
-  %.42 = call ptr %.40(ptr %.38)
-  %.43 = icmp eq ptr %.42, null
-  br i1 %.43, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.56 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 2
-  %.57 = call ptr @numba_unpickle(ptr %.32, i32 %.34, ptr %.56)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.59 = phi ptr [ %.47, %entry.if.if.if.endif ], [ %.57, %entry.if.if.else ]
-  %.60.not = icmp eq ptr %.59, null
-  br i1 %.60.not, label %.24, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.36")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.47 = call ptr @numba_runtime_build_excinfo_struct(ptr %.36, ptr nonnull %.42)
-  call void @NRT_Free(ptr nonnull %.10)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.59)
-  br label %.24
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.24
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.37")
-  br label %.24
+common.ret:
+  %.19 = load i64, ptr %.5, align 8
+  ret i64 %.19
 }
 
 define i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2addx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, double %arg.t1, i64 %arg.last) local_unnamed_addr {
 B0:
+  %.6.i17 = alloca ptr, align 8
+  %excinfo.i18 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i13 = alloca ptr, align 8
+  %.8.i7 = alloca ptr, align 8
+  %excinfo.i8 = alloca ptr, align 8
+  %.8.i2 = alloca ptr, align 8
+  %excinfo.i3 = alloca ptr, align 8
+  %.9.i1 = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.224 = alloca i8, align 1
   %excinfo.4 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 560
@@ -6762,7 +5960,7 @@ B0:
   %.26 = icmp eq i64 %.25, 0
   br i1 %.26, label %B454.sink.split, label %B118
 
-B118:                                             ; preds = %B0
+B118:
   %.48 = fsub double %arg.t1, %arg.t
   %.50 = getelementptr i8, ptr %arg.r, i64 232
   %.52 = load double, ptr %.50, align 8
@@ -6772,8 +5970,7 @@ B118:                                             ; preds = %B0
   %.60 = fcmp ugt double %.54, %.59
   br i1 %.60, label %B328, label %B204
 
-B204:                                             ; preds = %B118
-  %0 = inttoptr i64 %.18 to ptr
+B204:
   %.66 = getelementptr i8, ptr %arg.r, i64 648
   %.67 = load i64, ptr %.66, align 8
   %.68 = inttoptr i64 %.67 to ptr
@@ -6783,28 +5980,45 @@ B204:                                             ; preds = %B118
   %.74 = getelementptr i8, ptr %arg.r, i64 656
   %.75 = load i64, ptr %.74, align 8
   %.76 = inttoptr i64 %.75 to ptr
-  %.79 = tail call ptr @exponential(ptr nonnull %arg.r, i64 0, double %arg.t, double %.48, ptr %.68, ptr %.72, ptr %.76)
+  %.13.i = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9.i1, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 0, double %arg.t, double %.48, ptr %.68, ptr readonly %.72, ptr %.76) #0
+  %cond.i = icmp eq i32 %.13.i, 0
+  br i1 %cond.i, label %exponential.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+exponential.exit:
+  %0 = inttoptr i64 %.18 to ptr
   %.85 = load i64, ptr %.74, align 8
   %.86 = inttoptr i64 %.85 to ptr
   %.7.i = getelementptr i8, ptr %arg.r, i64 40
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !149
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !188
   %.9.i = getelementptr i8, ptr %arg.r, i64 256
-  %.10.i = load i64, ptr %.9.i, align 8, !noalias !149
+  %.10.i = load i64, ptr %.9.i, align 8, !noalias !188
   %.11.i = inttoptr i64 %.10.i to ptr
   %.12.i = inttoptr i64 %.8.i to ptr
-  tail call void %.12.i(ptr %.11.i, ptr %.86, ptr %0), !noalias !149
+  tail call void %.12.i(ptr %.11.i, ptr %.86, ptr %0), !noalias !188
   br label %B454
 
-B328:                                             ; preds = %B118
-  %.120 = tail call ptr @halve(ptr nonnull %arg.r, i64 -1, double %arg.t, double %arg.t1, double %arg.t1, double 0.000000e+00)
+B328:
+  %.12.i4 = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, i64 -1, double %arg.t, double %arg.t1, double %arg.t1, double 0.000000e+00) #0
+  %cond.i5 = icmp eq i32 %.12.i4, 0
+  br i1 %cond.i5, label %halve.exit, label %entry.if.i6, !prof !24
+
+entry.if.i6:
+  tail call void @llvm.trap()
+  unreachable
+
+halve.exit:
   %.124 = getelementptr i8, ptr %arg.r, i64 456
   %.126 = load double, ptr %.124, align 8
   br label %B454.sink.split
 
-B454.sink.split:                                  ; preds = %B328, %B0
-  %.sink29 = phi i64 [ 632, %B328 ], [ 544, %B0 ]
-  %.sink = phi i64 [ 640, %B328 ], [ 552, %B0 ]
-  %.126.sink28 = phi double [ %.126, %B328 ], [ %arg.t, %B0 ]
+B454.sink.split:
+  %.sink29 = phi i64 [ 632, %halve.exit ], [ 544, %B0 ]
+  %.sink = phi i64 [ 640, %halve.exit ], [ 552, %B0 ]
+  %.126.sink28 = phi double [ %.126, %halve.exit ], [ %arg.t, %B0 ]
   %1 = inttoptr i64 %.18 to ptr
   %.128 = getelementptr i8, ptr %arg.r, i64 %.sink29
   %.129 = load i64, ptr %.128, align 8
@@ -6813,743 +6027,683 @@ B454.sink.split:                                  ; preds = %B328, %B0
   %.133 = load i64, ptr %.132, align 8
   %.134 = inttoptr i64 %.133 to ptr
   %.140 = fsub double %arg.t1, %.126.sink28
-  %.143 = tail call ptr @classical(ptr nonnull %arg.r, double %.126.sink28, ptr %.130, ptr %.134, double %.140, ptr %1)
+  %.12.i9 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i7, ptr nonnull %excinfo.i8, ptr nonnull %arg.r, double %.126.sink28, ptr %.130, ptr readonly %.134, double %.140, ptr %1) #0
+  %cond.i10 = icmp eq i32 %.12.i9, 0
+  br i1 %cond.i10, label %classical.exit, label %entry.if.i11, !prof !24
+
+entry.if.i11:
+  tail call void @llvm.trap()
+  unreachable
+
+classical.exit:
   br label %B454
 
-B454:                                             ; preds = %B454.sink.split, %B204
+B454:
   %.147 = getelementptr i8, ptr %arg.r, i64 96
   %.148 = load i64, ptr %.147, align 8
   %.9240.not.i = icmp slt i64 %.148, 1
   br i1 %.9240.not.i, label %B526, label %iter.check.i
 
-iter.check.i:                                     ; preds = %B454
+iter.check.i:
   %min.iters.check.i = icmp samesign ult i64 %.148, 4
-  br i1 %min.iters.check.i, label %B40.i.preheader, label %vector.main.loop.iter.check.i
+  br i1 %min.iters.check.i, label %iter.check.i.B40.i.preheader_crit_edge, label %vector.main.loop.iter.check.i
 
-vector.main.loop.iter.check.i:                    ; preds = %iter.check.i
-  %const = bitcast i64 9223372036854775792 to i64
+iter.check.i.B40.i.preheader_crit_edge:
+  %.pre57 = inttoptr i64 %.18 to ptr
+  br label %B40.i.preheader
+
+vector.main.loop.iter.check.i:
   %min.iters.check1.i = icmp samesign ult i64 %.148, 16
-  br i1 %min.iters.check1.i, label %vec.epilog.ph.i, label %vector.ph.i
+  br i1 %min.iters.check1.i, label %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge, label %vector.ph.i
 
-vector.ph.i:                                      ; preds = %vector.main.loop.iter.check.i
-  %n.vec.i = and i64 %.148, %const
+vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge:
+  %.pre59 = inttoptr i64 %.18 to ptr
+  br label %vec.epilog.ph.i
+
+vector.ph.i:
+  %n.vec.i = and i64 %.148, 9223372036854775792
+  %sunkaddr = inttoptr i64 %.18 to ptr
   br label %vector.body.i
 
-vector.body.i:                                    ; preds = %vector.body.i, %vector.ph.i
+vector.body.i:
   %index.i = phi i64 [ 0, %vector.ph.i ], [ %index.next.i, %vector.body.i ]
-  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %6, %vector.body.i ]
-  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %7, %vector.body.i ]
-  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %8, %vector.body.i ]
-  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %9, %vector.body.i ]
-  %sunkaddr = inttoptr i64 %.18 to ptr
-  %sunkaddr243 = mul i64 %index.i, 8
+  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %10, %vector.body.i ]
+  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %11, %vector.body.i ]
+  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %12, %vector.body.i ]
+  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %13, %vector.body.i ]
+  %sunkaddr243 = shl i64 %index.i, 3
   %sunkaddr244 = getelementptr i8, ptr %sunkaddr, i64 %sunkaddr243
-  %wide.load.i = load <4 x double>, ptr %sunkaddr244, align 8, !noalias !152
-  %sunkaddr245 = inttoptr i64 %.18 to ptr
-  %sunkaddr246 = mul i64 %index.i, 8
-  %sunkaddr247 = getelementptr i8, ptr %sunkaddr245, i64 %sunkaddr246
-  %sunkaddr248 = getelementptr i8, ptr %sunkaddr247, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr248, align 8, !noalias !152
-  %sunkaddr249 = inttoptr i64 %.18 to ptr
-  %sunkaddr250 = mul i64 %index.i, 8
-  %sunkaddr251 = getelementptr i8, ptr %sunkaddr249, i64 %sunkaddr250
-  %sunkaddr252 = getelementptr i8, ptr %sunkaddr251, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr252, align 8, !noalias !152
-  %sunkaddr253 = inttoptr i64 %.18 to ptr
-  %sunkaddr254 = mul i64 %index.i, 8
-  %sunkaddr255 = getelementptr i8, ptr %sunkaddr253, i64 %sunkaddr254
-  %sunkaddr256 = getelementptr i8, ptr %sunkaddr255, i64 96
-  %wide.load7.i = load <4 x double>, ptr %sunkaddr256, align 8, !noalias !152
-  %2 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load.i, i32 504)
-  %3 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load5.i, i32 504)
-  %4 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load6.i, i32 504)
-  %5 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load7.i, i32 504)
-  %6 = and <4 x i1> %vec.phi.i, %2
-  %7 = and <4 x i1> %vec.phi2.i, %3
-  %8 = and <4 x i1> %vec.phi3.i, %4
-  %9 = and <4 x i1> %vec.phi4.i, %5
+  %wide.load.i = load <4 x double>, ptr %sunkaddr244, align 8, !noalias !191
+  %sunkaddr248 = getelementptr i8, ptr %sunkaddr244, i64 32
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr248, align 8, !noalias !191
+  %sunkaddr252 = getelementptr i8, ptr %sunkaddr244, i64 64
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr252, align 8, !noalias !191
+  %sunkaddr256 = getelementptr i8, ptr %sunkaddr244, i64 96
+  %wide.load7.i = load <4 x double>, ptr %sunkaddr256, align 8, !noalias !191
+  %2 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
+  %3 = fcmp one <4 x double> %2, splat (double 0x7FF0000000000000)
+  %4 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
+  %5 = fcmp one <4 x double> %4, splat (double 0x7FF0000000000000)
+  %6 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load6.i)
+  %7 = fcmp one <4 x double> %6, splat (double 0x7FF0000000000000)
+  %8 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load7.i)
+  %9 = fcmp one <4 x double> %8, splat (double 0x7FF0000000000000)
+  %10 = and <4 x i1> %vec.phi.i, %3
+  %11 = and <4 x i1> %vec.phi2.i, %5
+  %12 = and <4 x i1> %vec.phi3.i, %7
+  %13 = and <4 x i1> %vec.phi4.i, %9
   %index.next.i = add nuw nsw i64 %index.i, 16
-  %10 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %10, label %middle.block.i, label %vector.body.i, !llvm.loop !155
+  %14 = icmp eq i64 %n.vec.i, %index.next.i
+  br i1 %14, label %middle.block.i, label %vector.body.i, !llvm.loop !194
 
-middle.block.i:                                   ; preds = %vector.body.i
-  %bin.rdx.i = and <4 x i1> %6, %7
-  %bin.rdx8.i = and <4 x i1> %8, %bin.rdx.i
-  %bin.rdx9.i = and <4 x i1> %9, %bin.rdx8.i
-  %11 = bitcast <4 x i1> %bin.rdx9.i to i4
-  %12 = icmp eq i4 %11, -1
+middle.block.i:
+  %bin.rdx.i = and <4 x i1> %10, %11
+  %bin.rdx8.i = and <4 x i1> %12, %bin.rdx.i
+  %bin.rdx9.i = and <4 x i1> %13, %bin.rdx8.i
+  %15 = bitcast <4 x i1> %bin.rdx9.i to i4
+  %16 = icmp eq i4 %15, -1
   %cmp.n.i = icmp eq i64 %.148, %n.vec.i
   br i1 %cmp.n.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %vec.epilog.iter.check.i
 
-vec.epilog.iter.check.i:                          ; preds = %middle.block.i
-  %13 = and i64 %.148, 12
-  %min.epilog.iters.check.i = icmp eq i64 %13, 0
-  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !21
+vec.epilog.iter.check.i:
+  %17 = and i64 %.148, 12
+  %min.epilog.iters.check.i = icmp eq i64 %17, 0
+  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !20
 
-vec.epilog.ph.i:                                  ; preds = %vec.epilog.iter.check.i, %vector.main.loop.iter.check.i
-  %vec.epilog.resume.val.i = phi i64 [ %n.vec.i, %vec.epilog.iter.check.i ], [ 0, %vector.main.loop.iter.check.i ]
-  %bc.merge.rdx.i = phi i1 [ %12, %vec.epilog.iter.check.i ], [ true, %vector.main.loop.iter.check.i ]
-  %const_mat = add i64 %const, 12
-  %n.vec11.i = and i64 %.148, %const_mat
-  %14 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
+vec.epilog.ph.i:
+  %.pre-phi60 = phi ptr [ %.pre59, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %sunkaddr, %vec.epilog.iter.check.i ]
+  %vec.epilog.resume.val.i = phi i64 [ 0, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %n.vec.i, %vec.epilog.iter.check.i ]
+  %bc.merge.rdx.i = phi i1 [ true, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %16, %vec.epilog.iter.check.i ]
+  %n.vec11.i = and i64 %.148, 9223372036854775804
+  %18 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
   br label %vec.epilog.vector.body.i
 
-vec.epilog.vector.body.i:                         ; preds = %vec.epilog.vector.body.i, %vec.epilog.ph.i
+vec.epilog.vector.body.i:
   %index12.i = phi i64 [ %vec.epilog.resume.val.i, %vec.epilog.ph.i ], [ %index.next15.i, %vec.epilog.vector.body.i ]
-  %vec.phi13.i = phi <4 x i1> [ %14, %vec.epilog.ph.i ], [ %18, %vec.epilog.vector.body.i ]
-  %15 = inttoptr i64 %.18 to ptr
-  %16 = shl i64 %index12.i, 3
-  %scevgep28.i = getelementptr i8, ptr %15, i64 %16
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !152
-  %17 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load14.i, i32 504)
-  %18 = and <4 x i1> %vec.phi13.i, %17
+  %vec.phi13.i = phi <4 x i1> [ %18, %vec.epilog.ph.i ], [ %22, %vec.epilog.vector.body.i ]
+  %19 = shl i64 %index12.i, 3
+  %scevgep28.i = getelementptr i8, ptr %.pre-phi60, i64 %19
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !191
+  %20 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
+  %21 = fcmp one <4 x double> %20, splat (double 0x7FF0000000000000)
+  %22 = and <4 x i1> %vec.phi13.i, %21
   %index.next15.i = add nuw i64 %index12.i, 4
-  %19 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %19, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !156
+  %23 = icmp eq i64 %n.vec11.i, %index.next15.i
+  br i1 %23, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !195
 
-vec.epilog.middle.block.i:                        ; preds = %vec.epilog.vector.body.i
-  %20 = bitcast <4 x i1> %18 to i4
-  %21 = icmp eq i4 %20, -1
+vec.epilog.middle.block.i:
+  %24 = bitcast <4 x i1> %22 to i4
+  %25 = icmp eq i4 %24, -1
   %cmp.n16.i = icmp eq i64 %.148, %n.vec11.i
   br i1 %cmp.n16.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i.preheader
 
-B40.i.preheader:                                  ; preds = %vec.epilog.middle.block.i, %vec.epilog.iter.check.i, %iter.check.i
-  %good.2.043.i.ph = phi i1 [ %21, %vec.epilog.middle.block.i ], [ %12, %vec.epilog.iter.check.i ], [ true, %iter.check.i ]
-  %.983941.i.ph = phi i64 [ %n.vec11.i, %vec.epilog.middle.block.i ], [ %n.vec.i, %vec.epilog.iter.check.i ], [ 0, %iter.check.i ]
+B40.i.preheader:
+  %.pre-phi58 = phi ptr [ %.pre57, %iter.check.i.B40.i.preheader_crit_edge ], [ %.pre-phi60, %vec.epilog.middle.block.i ], [ %sunkaddr, %vec.epilog.iter.check.i ]
+  %good.2.043.i.ph = phi i1 [ true, %iter.check.i.B40.i.preheader_crit_edge ], [ %25, %vec.epilog.middle.block.i ], [ %16, %vec.epilog.iter.check.i ]
+  %.983941.i.ph = phi i64 [ 0, %iter.check.i.B40.i.preheader_crit_edge ], [ %n.vec11.i, %vec.epilog.middle.block.i ], [ %n.vec.i, %vec.epilog.iter.check.i ]
   br label %B40.i
 
-B40.i:                                            ; preds = %B40.i, %B40.i.preheader
+B40.i:
   %good.2.043.i = phi i1 [ %.136.i, %B40.i ], [ %good.2.043.i.ph, %B40.i.preheader ]
   %.983941.i = phi i64 [ %.105.i, %B40.i ], [ %.983941.i.ph, %B40.i.preheader ]
-  %22 = inttoptr i64 %.18 to ptr
   %.105.i = add nuw nsw i64 %.983941.i, 1
-  %23 = shl i64 %.983941.i, 3
-  %scevgep.i = getelementptr i8, ptr %22, i64 %23
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !152
-  %24 = call i1 @llvm.is.fpclass.f64(double %.132.i, i32 504)
-  %.136.i = and i1 %good.2.043.i, %24
+  %26 = shl i64 %.983941.i, 3
+  %scevgep.i = getelementptr i8, ptr %.pre-phi58, i64 %26
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !191
+  %27 = tail call double @llvm.fabs.f64(double %.132.i)
+  %28 = fcmp one double %27, 0x7FF0000000000000
+  %.136.i = and i1 %good.2.043.i, %28
   %exitcond.not.i = icmp eq i64 %.148, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !157
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !196
 
-_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit: ; preds = %B40.i, %vec.epilog.middle.block.i, %middle.block.i
-  %.136.lcssa.i = phi i1 [ %21, %vec.epilog.middle.block.i ], [ %12, %middle.block.i ], [ %.136.i, %B40.i ]
+_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
+  %.136.lcssa.i = phi i1 [ %25, %vec.epilog.middle.block.i ], [ %16, %middle.block.i ], [ %.136.i, %B40.i ]
   br i1 %.136.lcssa.i, label %B526, label %B496.endif
 
-B526:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, %B454
-  %25 = inttoptr i64 %.18 to ptr
+B526:
+  %29 = inttoptr i64 %.18 to ptr
   store i8 0, ptr %.224, align 1
-  %.228 = call i32 @_ZN18biped_adrc_kernels4slowB3v57B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a(ptr nonnull %.224, ptr nonnull %excinfo.4, ptr nonnull %arg.r, double %arg.t1, ptr %25)
+  %.228 = call i32 @_ZN18biped_adrc_kernels4slowB3v57B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a(ptr nonnull %.224, ptr nonnull %excinfo.4, ptr nonnull %arg.r, double %arg.t1, ptr %29)
   %.238 = load i8, ptr %.224, align 1
   %.241 = icmp eq i8 %.238, 0
   br i1 %.241, label %B526.endif.thread, label %B526.endif
 
-common.ret:                                       ; preds = %B920.endif, %B726.endif, %B526.endif.if.if, %B496.endif, %B950, %B560
+common.ret:
   %common.ret.op = phi i32 [ 0, %B560 ], [ 0, %B950 ], [ %.228, %B526.endif.if.if ], [ 0, %B920.endif ], [ 0, %B496.endif ], [ 0, %B726.endif ]
   ret i32 %common.ret.op
 
-B560:                                             ; preds = %B526.endif.thread, %B526.endif.thread
+B560:
   store i64 8, ptr %retptr, align 8
   br label %common.ret
 
-B574:                                             ; preds = %B526.endif, %B526.endif
-  %sunkaddr257 = getelementptr i8, ptr %arg.r, i64 144
-  %.270 = load i64, ptr %sunkaddr257, align 8
+B574:
+  %.270 = load i64, ptr %.24, align 8
   %.271 = icmp eq i64 %.270, 1
   %.274 = icmp eq i64 %arg.last, 0
   %or.cond = select i1 %.271, i1 %.274, i1 false
   br i1 %or.cond, label %B618, label %B756
 
-B618:                                             ; preds = %B574
+B618:
   %.277 = getelementptr i8, ptr %arg.r, i64 656
   %.278 = load i64, ptr %.277, align 8
   %.279 = inttoptr i64 %.278 to ptr
   %.281 = getelementptr i8, ptr %arg.r, i64 712
   %.282 = load i64, ptr %.281, align 8
   %.283 = inttoptr i64 %.282 to ptr
-  %.286 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t1, ptr %.279, ptr %.283)
+  %.10.i14 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i13, ptr nonnull %arg.r, double %arg.t1, ptr %.279, ptr %.283) #0
+  %cond.i15 = icmp eq i32 %.10.i14, 0
+  br i1 %cond.i15, label %remainder.exit, label %entry.if.i16, !prof !24
+
+entry.if.i16:
+  tail call void @llvm.trap()
+  unreachable
+
+remainder.exit:
   %.290 = load i64, ptr %.281, align 8
   %.293 = getelementptr i8, ptr %arg.r, i64 120
   %.294 = load i64, ptr %.293, align 8
   %.9240.not.i4 = icmp slt i64 %.294, 1
   br i1 %.9240.not.i4, label %B756, label %iter.check.i5
 
-iter.check.i5:                                    ; preds = %B618
+iter.check.i5:
   %min.iters.check.i6 = icmp samesign ult i64 %.294, 4
-  br i1 %min.iters.check.i6, label %B40.i49.preheader, label %vector.main.loop.iter.check.i7
+  br i1 %min.iters.check.i6, label %iter.check.i5.B40.i49.preheader_crit_edge, label %vector.main.loop.iter.check.i7
 
-vector.main.loop.iter.check.i7:                   ; preds = %iter.check.i5
-  %const241 = bitcast i64 9223372036854775792 to i64
+iter.check.i5.B40.i49.preheader_crit_edge:
+  %.pre53 = inttoptr i64 %.290 to ptr
+  br label %B40.i49.preheader
+
+vector.main.loop.iter.check.i7:
   %min.iters.check1.i8 = icmp samesign ult i64 %.294, 16
-  br i1 %min.iters.check1.i8, label %vec.epilog.ph.i34, label %vector.ph.i9
+  br i1 %min.iters.check1.i8, label %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge, label %vector.ph.i9
 
-vector.ph.i9:                                     ; preds = %vector.main.loop.iter.check.i7
-  %n.vec.i10 = and i64 %.294, %const241
+vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge:
+  %.pre55 = inttoptr i64 %.290 to ptr
+  br label %vec.epilog.ph.i34
+
+vector.ph.i9:
+  %n.vec.i10 = and i64 %.294, 9223372036854775792
+  %sunkaddr258 = inttoptr i64 %.290 to ptr
   br label %vector.body.i11
 
-vector.body.i11:                                  ; preds = %vector.body.i11, %vector.ph.i9
+vector.body.i11:
   %index.i12 = phi i64 [ 0, %vector.ph.i9 ], [ %index.next.i26, %vector.body.i11 ]
-  %vec.phi.i13 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %30, %vector.body.i11 ]
-  %vec.phi2.i14 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %31, %vector.body.i11 ]
-  %vec.phi3.i15 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %32, %vector.body.i11 ]
-  %vec.phi4.i16 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %33, %vector.body.i11 ]
-  %sunkaddr258 = inttoptr i64 %.290 to ptr
-  %sunkaddr259 = mul i64 %index.i12, 8
+  %vec.phi.i13 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %38, %vector.body.i11 ]
+  %vec.phi2.i14 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %39, %vector.body.i11 ]
+  %vec.phi3.i15 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %40, %vector.body.i11 ]
+  %vec.phi4.i16 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %41, %vector.body.i11 ]
+  %sunkaddr259 = shl i64 %index.i12, 3
   %sunkaddr260 = getelementptr i8, ptr %sunkaddr258, i64 %sunkaddr259
-  %wide.load.i19 = load <4 x double>, ptr %sunkaddr260, align 8, !noalias !158
-  %sunkaddr261 = inttoptr i64 %.290 to ptr
-  %sunkaddr262 = mul i64 %index.i12, 8
-  %sunkaddr263 = getelementptr i8, ptr %sunkaddr261, i64 %sunkaddr262
-  %sunkaddr264 = getelementptr i8, ptr %sunkaddr263, i64 32
-  %wide.load5.i21 = load <4 x double>, ptr %sunkaddr264, align 8, !noalias !158
-  %sunkaddr265 = inttoptr i64 %.290 to ptr
-  %sunkaddr266 = mul i64 %index.i12, 8
-  %sunkaddr267 = getelementptr i8, ptr %sunkaddr265, i64 %sunkaddr266
-  %sunkaddr268 = getelementptr i8, ptr %sunkaddr267, i64 64
-  %wide.load6.i23 = load <4 x double>, ptr %sunkaddr268, align 8, !noalias !158
-  %sunkaddr269 = inttoptr i64 %.290 to ptr
-  %sunkaddr270 = mul i64 %index.i12, 8
-  %sunkaddr271 = getelementptr i8, ptr %sunkaddr269, i64 %sunkaddr270
-  %sunkaddr272 = getelementptr i8, ptr %sunkaddr271, i64 96
-  %wide.load7.i25 = load <4 x double>, ptr %sunkaddr272, align 8, !noalias !158
-  %26 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load.i19, i32 504)
-  %27 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load5.i21, i32 504)
-  %28 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load6.i23, i32 504)
-  %29 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load7.i25, i32 504)
-  %30 = and <4 x i1> %vec.phi.i13, %26
-  %31 = and <4 x i1> %vec.phi2.i14, %27
-  %32 = and <4 x i1> %vec.phi3.i15, %28
-  %33 = and <4 x i1> %vec.phi4.i16, %29
+  %wide.load.i19 = load <4 x double>, ptr %sunkaddr260, align 8, !noalias !197
+  %sunkaddr264 = getelementptr i8, ptr %sunkaddr260, i64 32
+  %wide.load5.i21 = load <4 x double>, ptr %sunkaddr264, align 8, !noalias !197
+  %sunkaddr268 = getelementptr i8, ptr %sunkaddr260, i64 64
+  %wide.load6.i23 = load <4 x double>, ptr %sunkaddr268, align 8, !noalias !197
+  %sunkaddr272 = getelementptr i8, ptr %sunkaddr260, i64 96
+  %wide.load7.i25 = load <4 x double>, ptr %sunkaddr272, align 8, !noalias !197
+  %30 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i19)
+  %31 = fcmp one <4 x double> %30, splat (double 0x7FF0000000000000)
+  %32 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i21)
+  %33 = fcmp one <4 x double> %32, splat (double 0x7FF0000000000000)
+  %34 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load6.i23)
+  %35 = fcmp one <4 x double> %34, splat (double 0x7FF0000000000000)
+  %36 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load7.i25)
+  %37 = fcmp one <4 x double> %36, splat (double 0x7FF0000000000000)
+  %38 = and <4 x i1> %vec.phi.i13, %31
+  %39 = and <4 x i1> %vec.phi2.i14, %33
+  %40 = and <4 x i1> %vec.phi3.i15, %35
+  %41 = and <4 x i1> %vec.phi4.i16, %37
   %index.next.i26 = add nuw nsw i64 %index.i12, 16
-  %34 = icmp eq i64 %n.vec.i10, %index.next.i26
-  br i1 %34, label %middle.block.i27, label %vector.body.i11, !llvm.loop !155
+  %42 = icmp eq i64 %n.vec.i10, %index.next.i26
+  br i1 %42, label %middle.block.i27, label %vector.body.i11, !llvm.loop !194
 
-middle.block.i27:                                 ; preds = %vector.body.i11
-  %bin.rdx.i28 = and <4 x i1> %30, %31
-  %bin.rdx8.i29 = and <4 x i1> %32, %bin.rdx.i28
-  %bin.rdx9.i30 = and <4 x i1> %33, %bin.rdx8.i29
-  %35 = bitcast <4 x i1> %bin.rdx9.i30 to i4
-  %36 = icmp eq i4 %35, -1
+middle.block.i27:
+  %bin.rdx.i28 = and <4 x i1> %38, %39
+  %bin.rdx8.i29 = and <4 x i1> %40, %bin.rdx.i28
+  %bin.rdx9.i30 = and <4 x i1> %41, %bin.rdx8.i29
+  %43 = bitcast <4 x i1> %bin.rdx9.i30 to i4
+  %44 = icmp eq i4 %43, -1
   %cmp.n.i31 = icmp eq i64 %.294, %n.vec.i10
   br i1 %cmp.n.i31, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, label %vec.epilog.iter.check.i32
 
-vec.epilog.iter.check.i32:                        ; preds = %middle.block.i27
-  %37 = and i64 %.294, 12
-  %min.epilog.iters.check.i33 = icmp eq i64 %37, 0
-  br i1 %min.epilog.iters.check.i33, label %B40.i49.preheader, label %vec.epilog.ph.i34, !prof !21
+vec.epilog.iter.check.i32:
+  %45 = and i64 %.294, 12
+  %min.epilog.iters.check.i33 = icmp eq i64 %45, 0
+  br i1 %min.epilog.iters.check.i33, label %B40.i49.preheader, label %vec.epilog.ph.i34, !prof !20
 
-vec.epilog.ph.i34:                                ; preds = %vec.epilog.iter.check.i32, %vector.main.loop.iter.check.i7
-  %vec.epilog.resume.val.i35 = phi i64 [ %n.vec.i10, %vec.epilog.iter.check.i32 ], [ 0, %vector.main.loop.iter.check.i7 ]
-  %bc.merge.rdx.i36 = phi i1 [ %36, %vec.epilog.iter.check.i32 ], [ true, %vector.main.loop.iter.check.i7 ]
-  %const_mat242 = add i64 %const241, 12
-  %n.vec11.i37 = and i64 %.294, %const_mat242
-  %38 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i36, i64 0
+vec.epilog.ph.i34:
+  %.pre-phi56 = phi ptr [ %.pre55, %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge ], [ %sunkaddr258, %vec.epilog.iter.check.i32 ]
+  %vec.epilog.resume.val.i35 = phi i64 [ 0, %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge ], [ %n.vec.i10, %vec.epilog.iter.check.i32 ]
+  %bc.merge.rdx.i36 = phi i1 [ true, %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge ], [ %44, %vec.epilog.iter.check.i32 ]
+  %n.vec11.i37 = and i64 %.294, 9223372036854775804
+  %46 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i36, i64 0
   br label %vec.epilog.vector.body.i38
 
-vec.epilog.vector.body.i38:                       ; preds = %vec.epilog.vector.body.i38, %vec.epilog.ph.i34
+vec.epilog.vector.body.i38:
   %index12.i39 = phi i64 [ %vec.epilog.resume.val.i35, %vec.epilog.ph.i34 ], [ %index.next15.i43, %vec.epilog.vector.body.i38 ]
-  %vec.phi13.i40 = phi <4 x i1> [ %38, %vec.epilog.ph.i34 ], [ %42, %vec.epilog.vector.body.i38 ]
-  %39 = inttoptr i64 %.290 to ptr
-  %40 = shl i64 %index12.i39, 3
-  %scevgep28.i41 = getelementptr i8, ptr %39, i64 %40
-  %wide.load14.i42 = load <4 x double>, ptr %scevgep28.i41, align 8, !noalias !158
-  %41 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load14.i42, i32 504)
-  %42 = and <4 x i1> %vec.phi13.i40, %41
+  %vec.phi13.i40 = phi <4 x i1> [ %46, %vec.epilog.ph.i34 ], [ %50, %vec.epilog.vector.body.i38 ]
+  %47 = shl i64 %index12.i39, 3
+  %scevgep28.i41 = getelementptr i8, ptr %.pre-phi56, i64 %47
+  %wide.load14.i42 = load <4 x double>, ptr %scevgep28.i41, align 8, !noalias !197
+  %48 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i42)
+  %49 = fcmp one <4 x double> %48, splat (double 0x7FF0000000000000)
+  %50 = and <4 x i1> %vec.phi13.i40, %49
   %index.next15.i43 = add nuw i64 %index12.i39, 4
-  %43 = icmp eq i64 %n.vec11.i37, %index.next15.i43
-  br i1 %43, label %vec.epilog.middle.block.i44, label %vec.epilog.vector.body.i38, !llvm.loop !156
+  %51 = icmp eq i64 %n.vec11.i37, %index.next15.i43
+  br i1 %51, label %vec.epilog.middle.block.i44, label %vec.epilog.vector.body.i38, !llvm.loop !195
 
-vec.epilog.middle.block.i44:                      ; preds = %vec.epilog.vector.body.i38
-  %44 = bitcast <4 x i1> %42 to i4
-  %45 = icmp eq i4 %44, -1
+vec.epilog.middle.block.i44:
+  %52 = bitcast <4 x i1> %50 to i4
+  %53 = icmp eq i4 %52, -1
   %cmp.n16.i45 = icmp eq i64 %.294, %n.vec11.i37
   br i1 %cmp.n16.i45, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, label %B40.i49.preheader
 
-B40.i49.preheader:                                ; preds = %vec.epilog.middle.block.i44, %vec.epilog.iter.check.i32, %iter.check.i5
-  %good.2.043.i50.ph = phi i1 [ %45, %vec.epilog.middle.block.i44 ], [ %36, %vec.epilog.iter.check.i32 ], [ true, %iter.check.i5 ]
-  %.983941.i51.ph = phi i64 [ %n.vec11.i37, %vec.epilog.middle.block.i44 ], [ %n.vec.i10, %vec.epilog.iter.check.i32 ], [ 0, %iter.check.i5 ]
+B40.i49.preheader:
+  %.pre-phi54 = phi ptr [ %.pre53, %iter.check.i5.B40.i49.preheader_crit_edge ], [ %.pre-phi56, %vec.epilog.middle.block.i44 ], [ %sunkaddr258, %vec.epilog.iter.check.i32 ]
+  %good.2.043.i50.ph = phi i1 [ true, %iter.check.i5.B40.i49.preheader_crit_edge ], [ %53, %vec.epilog.middle.block.i44 ], [ %44, %vec.epilog.iter.check.i32 ]
+  %.983941.i51.ph = phi i64 [ 0, %iter.check.i5.B40.i49.preheader_crit_edge ], [ %n.vec11.i37, %vec.epilog.middle.block.i44 ], [ %n.vec.i10, %vec.epilog.iter.check.i32 ]
   br label %B40.i49
 
-B40.i49:                                          ; preds = %B40.i49, %B40.i49.preheader
+B40.i49:
   %good.2.043.i50 = phi i1 [ %.136.i55, %B40.i49 ], [ %good.2.043.i50.ph, %B40.i49.preheader ]
   %.983941.i51 = phi i64 [ %.105.i52, %B40.i49 ], [ %.983941.i51.ph, %B40.i49.preheader ]
-  %46 = inttoptr i64 %.290 to ptr
   %.105.i52 = add nuw nsw i64 %.983941.i51, 1
-  %47 = shl i64 %.983941.i51, 3
-  %scevgep.i53 = getelementptr i8, ptr %46, i64 %47
-  %.132.i54 = load double, ptr %scevgep.i53, align 8, !noalias !158
-  %48 = call i1 @llvm.is.fpclass.f64(double %.132.i54, i32 504)
-  %.136.i55 = and i1 %good.2.043.i50, %48
+  %54 = shl i64 %.983941.i51, 3
+  %scevgep.i53 = getelementptr i8, ptr %.pre-phi54, i64 %54
+  %.132.i54 = load double, ptr %scevgep.i53, align 8, !noalias !197
+  %55 = call double @llvm.fabs.f64(double %.132.i54)
+  %56 = fcmp one double %55, 0x7FF0000000000000
+  %.136.i55 = and i1 %good.2.043.i50, %56
   %exitcond.not.i56 = icmp eq i64 %.294, %.105.i52
-  br i1 %exitcond.not.i56, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, label %B40.i49, !llvm.loop !157
+  br i1 %exitcond.not.i56, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, label %B40.i49, !llvm.loop !196
 
-_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60: ; preds = %B40.i49, %vec.epilog.middle.block.i44, %middle.block.i27
-  %.136.lcssa.i58 = phi i1 [ %45, %vec.epilog.middle.block.i44 ], [ %36, %middle.block.i27 ], [ %.136.i55, %B40.i49 ]
+_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60:
+  %.136.lcssa.i58 = phi i1 [ %53, %vec.epilog.middle.block.i44 ], [ %44, %middle.block.i27 ], [ %.136.i55, %B40.i49 ]
   br i1 %.136.lcssa.i58, label %B756, label %B726.endif
 
-B756:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, %B618, %B574
+B756:
   %.366 = getelementptr i8, ptr %arg.r, i64 384
   %.367 = load i64, ptr %.366, align 8
   %.368 = icmp sgt i64 %.367, 0
   br i1 %.368, label %B822, label %B778
 
-B778:                                             ; preds = %B756
-  %49 = icmp eq i64 %arg.last, 0
-  %sunkaddr273 = getelementptr i8, ptr %arg.r, i64 144
-  %.372 = load i64, ptr %sunkaddr273, align 8
+B778:
+  %.372 = load i64, ptr %.24, align 8
   %.373 = icmp eq i64 %.372, 0
-  %or.cond27 = select i1 %.373, i1 %49, i1 false
+  %or.cond27 = select i1 %.373, i1 %.274, i1 false
   br i1 %or.cond27, label %B822, label %B950
 
-B822:                                             ; preds = %B778, %B756
-  %50 = inttoptr i64 %.18 to ptr
+B822:
   %.383 = getelementptr i8, ptr %arg.r, i64 568
   %.384 = load i64, ptr %.383, align 8
   %.385 = inttoptr i64 %.384 to ptr
-  %.389 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t1, ptr %50, ptr %.385)
+  %.10.i19 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i17, ptr nonnull %excinfo.i18, ptr nonnull %arg.r, double %arg.t1, ptr readonly %29, ptr %.385) #0
+  %cond.i20 = icmp eq i32 %.10.i19, 0
+  br i1 %cond.i20, label %flow.exit, label %entry.if.i21, !prof !24
+
+entry.if.i21:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit:
   %.397 = load i64, ptr %.383, align 8
-  %sunkaddr274 = getelementptr i8, ptr %arg.r, i64 96
-  %.401 = load i64, ptr %sunkaddr274, align 8
+  %.401 = load i64, ptr %.147, align 8
   %.9240.not.i65 = icmp slt i64 %.401, 1
   br i1 %.9240.not.i65, label %B950, label %iter.check.i66
 
-iter.check.i66:                                   ; preds = %B822
+iter.check.i66:
   %min.iters.check.i67 = icmp samesign ult i64 %.401, 4
-  br i1 %min.iters.check.i67, label %B40.i110.preheader, label %vector.main.loop.iter.check.i68
+  br i1 %min.iters.check.i67, label %iter.check.i66.B40.i110.preheader_crit_edge, label %vector.main.loop.iter.check.i68
 
-vector.main.loop.iter.check.i68:                  ; preds = %iter.check.i66
-  %const239 = bitcast i64 9223372036854775792 to i64
+iter.check.i66.B40.i110.preheader_crit_edge:
+  %.pre = inttoptr i64 %.397 to ptr
+  br label %B40.i110.preheader
+
+vector.main.loop.iter.check.i68:
   %min.iters.check1.i69 = icmp samesign ult i64 %.401, 16
-  br i1 %min.iters.check1.i69, label %vec.epilog.ph.i95, label %vector.ph.i70
+  br i1 %min.iters.check1.i69, label %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge, label %vector.ph.i70
 
-vector.ph.i70:                                    ; preds = %vector.main.loop.iter.check.i68
-  %n.vec.i71 = and i64 %.401, %const239
+vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge:
+  %.pre51 = inttoptr i64 %.397 to ptr
+  br label %vec.epilog.ph.i95
+
+vector.ph.i70:
+  %n.vec.i71 = and i64 %.401, 9223372036854775792
+  %sunkaddr275 = inttoptr i64 %.397 to ptr
   br label %vector.body.i72
 
-vector.body.i72:                                  ; preds = %vector.body.i72, %vector.ph.i70
+vector.body.i72:
   %index.i73 = phi i64 [ 0, %vector.ph.i70 ], [ %index.next.i87, %vector.body.i72 ]
-  %vec.phi.i74 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %55, %vector.body.i72 ]
-  %vec.phi2.i75 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %56, %vector.body.i72 ]
-  %vec.phi3.i76 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %57, %vector.body.i72 ]
-  %vec.phi4.i77 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %58, %vector.body.i72 ]
-  %sunkaddr275 = inttoptr i64 %.397 to ptr
-  %sunkaddr276 = mul i64 %index.i73, 8
+  %vec.phi.i74 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %65, %vector.body.i72 ]
+  %vec.phi2.i75 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %66, %vector.body.i72 ]
+  %vec.phi3.i76 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %67, %vector.body.i72 ]
+  %vec.phi4.i77 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %68, %vector.body.i72 ]
+  %sunkaddr276 = shl i64 %index.i73, 3
   %sunkaddr277 = getelementptr i8, ptr %sunkaddr275, i64 %sunkaddr276
-  %wide.load.i80 = load <4 x double>, ptr %sunkaddr277, align 8, !noalias !161
-  %sunkaddr278 = inttoptr i64 %.397 to ptr
-  %sunkaddr279 = mul i64 %index.i73, 8
-  %sunkaddr280 = getelementptr i8, ptr %sunkaddr278, i64 %sunkaddr279
-  %sunkaddr281 = getelementptr i8, ptr %sunkaddr280, i64 32
-  %wide.load5.i82 = load <4 x double>, ptr %sunkaddr281, align 8, !noalias !161
-  %sunkaddr282 = inttoptr i64 %.397 to ptr
-  %sunkaddr283 = mul i64 %index.i73, 8
-  %sunkaddr284 = getelementptr i8, ptr %sunkaddr282, i64 %sunkaddr283
-  %sunkaddr285 = getelementptr i8, ptr %sunkaddr284, i64 64
-  %wide.load6.i84 = load <4 x double>, ptr %sunkaddr285, align 8, !noalias !161
-  %sunkaddr286 = inttoptr i64 %.397 to ptr
-  %sunkaddr287 = mul i64 %index.i73, 8
-  %sunkaddr288 = getelementptr i8, ptr %sunkaddr286, i64 %sunkaddr287
-  %sunkaddr289 = getelementptr i8, ptr %sunkaddr288, i64 96
-  %wide.load7.i86 = load <4 x double>, ptr %sunkaddr289, align 8, !noalias !161
-  %51 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load.i80, i32 504)
-  %52 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load5.i82, i32 504)
-  %53 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load6.i84, i32 504)
-  %54 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load7.i86, i32 504)
-  %55 = and <4 x i1> %vec.phi.i74, %51
-  %56 = and <4 x i1> %vec.phi2.i75, %52
-  %57 = and <4 x i1> %vec.phi3.i76, %53
-  %58 = and <4 x i1> %vec.phi4.i77, %54
+  %wide.load.i80 = load <4 x double>, ptr %sunkaddr277, align 8, !noalias !200
+  %sunkaddr281 = getelementptr i8, ptr %sunkaddr277, i64 32
+  %wide.load5.i82 = load <4 x double>, ptr %sunkaddr281, align 8, !noalias !200
+  %sunkaddr285 = getelementptr i8, ptr %sunkaddr277, i64 64
+  %wide.load6.i84 = load <4 x double>, ptr %sunkaddr285, align 8, !noalias !200
+  %sunkaddr289 = getelementptr i8, ptr %sunkaddr277, i64 96
+  %wide.load7.i86 = load <4 x double>, ptr %sunkaddr289, align 8, !noalias !200
+  %57 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i80)
+  %58 = fcmp one <4 x double> %57, splat (double 0x7FF0000000000000)
+  %59 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i82)
+  %60 = fcmp one <4 x double> %59, splat (double 0x7FF0000000000000)
+  %61 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load6.i84)
+  %62 = fcmp one <4 x double> %61, splat (double 0x7FF0000000000000)
+  %63 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load7.i86)
+  %64 = fcmp one <4 x double> %63, splat (double 0x7FF0000000000000)
+  %65 = and <4 x i1> %vec.phi.i74, %58
+  %66 = and <4 x i1> %vec.phi2.i75, %60
+  %67 = and <4 x i1> %vec.phi3.i76, %62
+  %68 = and <4 x i1> %vec.phi4.i77, %64
   %index.next.i87 = add nuw nsw i64 %index.i73, 16
-  %59 = icmp eq i64 %n.vec.i71, %index.next.i87
-  br i1 %59, label %middle.block.i88, label %vector.body.i72, !llvm.loop !155
+  %69 = icmp eq i64 %n.vec.i71, %index.next.i87
+  br i1 %69, label %middle.block.i88, label %vector.body.i72, !llvm.loop !194
 
-middle.block.i88:                                 ; preds = %vector.body.i72
-  %bin.rdx.i89 = and <4 x i1> %55, %56
-  %bin.rdx8.i90 = and <4 x i1> %57, %bin.rdx.i89
-  %bin.rdx9.i91 = and <4 x i1> %58, %bin.rdx8.i90
-  %60 = bitcast <4 x i1> %bin.rdx9.i91 to i4
-  %61 = icmp eq i4 %60, -1
+middle.block.i88:
+  %bin.rdx.i89 = and <4 x i1> %65, %66
+  %bin.rdx8.i90 = and <4 x i1> %67, %bin.rdx.i89
+  %bin.rdx9.i91 = and <4 x i1> %68, %bin.rdx8.i90
+  %70 = bitcast <4 x i1> %bin.rdx9.i91 to i4
+  %71 = icmp eq i4 %70, -1
   %cmp.n.i92 = icmp eq i64 %.401, %n.vec.i71
   br i1 %cmp.n.i92, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, label %vec.epilog.iter.check.i93
 
-vec.epilog.iter.check.i93:                        ; preds = %middle.block.i88
-  %62 = and i64 %.401, 12
-  %min.epilog.iters.check.i94 = icmp eq i64 %62, 0
-  br i1 %min.epilog.iters.check.i94, label %B40.i110.preheader, label %vec.epilog.ph.i95, !prof !21
+vec.epilog.iter.check.i93:
+  %72 = and i64 %.401, 12
+  %min.epilog.iters.check.i94 = icmp eq i64 %72, 0
+  br i1 %min.epilog.iters.check.i94, label %B40.i110.preheader, label %vec.epilog.ph.i95, !prof !20
 
-vec.epilog.ph.i95:                                ; preds = %vec.epilog.iter.check.i93, %vector.main.loop.iter.check.i68
-  %vec.epilog.resume.val.i96 = phi i64 [ %n.vec.i71, %vec.epilog.iter.check.i93 ], [ 0, %vector.main.loop.iter.check.i68 ]
-  %bc.merge.rdx.i97 = phi i1 [ %61, %vec.epilog.iter.check.i93 ], [ true, %vector.main.loop.iter.check.i68 ]
-  %const_mat240 = add i64 %const239, 12
-  %n.vec11.i98 = and i64 %.401, %const_mat240
-  %63 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i97, i64 0
+vec.epilog.ph.i95:
+  %.pre-phi52 = phi ptr [ %.pre51, %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge ], [ %sunkaddr275, %vec.epilog.iter.check.i93 ]
+  %vec.epilog.resume.val.i96 = phi i64 [ 0, %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge ], [ %n.vec.i71, %vec.epilog.iter.check.i93 ]
+  %bc.merge.rdx.i97 = phi i1 [ true, %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge ], [ %71, %vec.epilog.iter.check.i93 ]
+  %n.vec11.i98 = and i64 %.401, 9223372036854775804
+  %73 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i97, i64 0
   br label %vec.epilog.vector.body.i99
 
-vec.epilog.vector.body.i99:                       ; preds = %vec.epilog.vector.body.i99, %vec.epilog.ph.i95
+vec.epilog.vector.body.i99:
   %index12.i100 = phi i64 [ %vec.epilog.resume.val.i96, %vec.epilog.ph.i95 ], [ %index.next15.i104, %vec.epilog.vector.body.i99 ]
-  %vec.phi13.i101 = phi <4 x i1> [ %63, %vec.epilog.ph.i95 ], [ %67, %vec.epilog.vector.body.i99 ]
-  %64 = inttoptr i64 %.397 to ptr
-  %65 = shl i64 %index12.i100, 3
-  %scevgep28.i102 = getelementptr i8, ptr %64, i64 %65
-  %wide.load14.i103 = load <4 x double>, ptr %scevgep28.i102, align 8, !noalias !161
-  %66 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load14.i103, i32 504)
-  %67 = and <4 x i1> %vec.phi13.i101, %66
+  %vec.phi13.i101 = phi <4 x i1> [ %73, %vec.epilog.ph.i95 ], [ %77, %vec.epilog.vector.body.i99 ]
+  %74 = shl i64 %index12.i100, 3
+  %scevgep28.i102 = getelementptr i8, ptr %.pre-phi52, i64 %74
+  %wide.load14.i103 = load <4 x double>, ptr %scevgep28.i102, align 8, !noalias !200
+  %75 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i103)
+  %76 = fcmp one <4 x double> %75, splat (double 0x7FF0000000000000)
+  %77 = and <4 x i1> %vec.phi13.i101, %76
   %index.next15.i104 = add nuw i64 %index12.i100, 4
-  %68 = icmp eq i64 %n.vec11.i98, %index.next15.i104
-  br i1 %68, label %vec.epilog.middle.block.i105, label %vec.epilog.vector.body.i99, !llvm.loop !156
+  %78 = icmp eq i64 %n.vec11.i98, %index.next15.i104
+  br i1 %78, label %vec.epilog.middle.block.i105, label %vec.epilog.vector.body.i99, !llvm.loop !195
 
-vec.epilog.middle.block.i105:                     ; preds = %vec.epilog.vector.body.i99
-  %69 = bitcast <4 x i1> %67 to i4
-  %70 = icmp eq i4 %69, -1
+vec.epilog.middle.block.i105:
+  %79 = bitcast <4 x i1> %77 to i4
+  %80 = icmp eq i4 %79, -1
   %cmp.n16.i106 = icmp eq i64 %.401, %n.vec11.i98
   br i1 %cmp.n16.i106, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, label %B40.i110.preheader
 
-B40.i110.preheader:                               ; preds = %vec.epilog.middle.block.i105, %vec.epilog.iter.check.i93, %iter.check.i66
-  %good.2.043.i111.ph = phi i1 [ %70, %vec.epilog.middle.block.i105 ], [ %61, %vec.epilog.iter.check.i93 ], [ true, %iter.check.i66 ]
-  %.983941.i112.ph = phi i64 [ %n.vec11.i98, %vec.epilog.middle.block.i105 ], [ %n.vec.i71, %vec.epilog.iter.check.i93 ], [ 0, %iter.check.i66 ]
+B40.i110.preheader:
+  %.pre-phi = phi ptr [ %.pre, %iter.check.i66.B40.i110.preheader_crit_edge ], [ %.pre-phi52, %vec.epilog.middle.block.i105 ], [ %sunkaddr275, %vec.epilog.iter.check.i93 ]
+  %good.2.043.i111.ph = phi i1 [ true, %iter.check.i66.B40.i110.preheader_crit_edge ], [ %80, %vec.epilog.middle.block.i105 ], [ %71, %vec.epilog.iter.check.i93 ]
+  %.983941.i112.ph = phi i64 [ 0, %iter.check.i66.B40.i110.preheader_crit_edge ], [ %n.vec11.i98, %vec.epilog.middle.block.i105 ], [ %n.vec.i71, %vec.epilog.iter.check.i93 ]
   br label %B40.i110
 
-B40.i110:                                         ; preds = %B40.i110, %B40.i110.preheader
+B40.i110:
   %good.2.043.i111 = phi i1 [ %.136.i116, %B40.i110 ], [ %good.2.043.i111.ph, %B40.i110.preheader ]
   %.983941.i112 = phi i64 [ %.105.i113, %B40.i110 ], [ %.983941.i112.ph, %B40.i110.preheader ]
-  %71 = inttoptr i64 %.397 to ptr
   %.105.i113 = add nuw nsw i64 %.983941.i112, 1
-  %72 = shl i64 %.983941.i112, 3
-  %scevgep.i114 = getelementptr i8, ptr %71, i64 %72
-  %.132.i115 = load double, ptr %scevgep.i114, align 8, !noalias !161
-  %73 = call i1 @llvm.is.fpclass.f64(double %.132.i115, i32 504)
-  %.136.i116 = and i1 %good.2.043.i111, %73
+  %81 = shl i64 %.983941.i112, 3
+  %scevgep.i114 = getelementptr i8, ptr %.pre-phi, i64 %81
+  %.132.i115 = load double, ptr %scevgep.i114, align 8, !noalias !200
+  %82 = call double @llvm.fabs.f64(double %.132.i115)
+  %83 = fcmp one double %82, 0x7FF0000000000000
+  %.136.i116 = and i1 %good.2.043.i111, %83
   %exitcond.not.i117 = icmp eq i64 %.401, %.105.i113
-  br i1 %exitcond.not.i117, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, label %B40.i110, !llvm.loop !157
+  br i1 %exitcond.not.i117, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, label %B40.i110, !llvm.loop !196
 
-_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121: ; preds = %B40.i110, %vec.epilog.middle.block.i105, %middle.block.i88
-  %.136.lcssa.i119 = phi i1 [ %70, %vec.epilog.middle.block.i105 ], [ %61, %middle.block.i88 ], [ %.136.i116, %B40.i110 ]
+_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121:
+  %.136.lcssa.i119 = phi i1 [ %80, %vec.epilog.middle.block.i105 ], [ %71, %middle.block.i88 ], [ %.136.i116, %B40.i110 ]
   br i1 %.136.lcssa.i119, label %B950, label %B920.endif
 
-B950:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, %B822, %B778
+B950:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B496.endif:                                       ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit
+B496.endif:
   %.8.i1 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !164
+  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !203
   %.10.i3 = icmp eq i64 %.9.i2, 0
   %spec.select.i = select i1 %.10.i3, i64 4, i64 %.9.i2
   store i64 %spec.select.i, ptr %retptr, align 8
   br label %common.ret
 
-B526.endif:                                       ; preds = %B526
+B526.endif:
   switch i32 %.228, label %B526.endif.if.if [
     i32 -2, label %B574
     i32 0, label %B574
-  ], !prof !9
+  ], !prof !8
 
-B526.endif.thread:                                ; preds = %B526
+B526.endif.thread:
   switch i32 %.228, label %B526.endif.if.if [
     i32 -2, label %B560
     i32 0, label %B560
-  ], !prof !9
+  ], !prof !8
 
-B526.endif.if.if:                                 ; preds = %B526.endif.thread, %B526.endif
+B526.endif.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B726.endif:                                       ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60
+B726.endif:
   %.8.i61 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i62 = load i64, ptr %.8.i61, align 8, !noalias !167
+  %.9.i62 = load i64, ptr %.8.i61, align 8, !noalias !206
   %.10.i63 = icmp eq i64 %.9.i62, 0
   %spec.select.i64 = select i1 %.10.i63, i64 4, i64 %.9.i62
   store i64 %spec.select.i64, ptr %retptr, align 8
   br label %common.ret
 
-B920.endif:                                       ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121
+B920.endif:
   %.8.i122 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i123 = load i64, ptr %.8.i122, align 8, !noalias !170
+  %.9.i123 = load i64, ptr %.8.i122, align 8, !noalias !209
   %.10.i124 = icmp eq i64 %.9.i123, 0
   %spec.select.i125 = select i1 %.10.i124, i64 4, i64 %.9.i123
   store i64 %spec.select.i125, ptr %retptr, align 8
   br label %common.ret
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(read, argmem: readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels4slowB3v57B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.t, ptr readonly %arg.x) local_unnamed_addr #5 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels4slowB3v57B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.t, ptr readonly %arg.x) local_unnamed_addr #0 {
 B0.endif:
   %.12 = getelementptr i8, ptr %arg.r, i64 72
   %.13 = load i64, ptr %.12, align 8
   %.10248.not = icmp slt i64 %.13, 1
   br i1 %.10248.not, label %B200, label %B54.lr.ph
 
-B54.lr.ph:                                        ; preds = %B0.endif
+B54.lr.ph:
   %xtraiter = and i64 %.13, 3
   %0 = icmp samesign ult i64 %.13, 4
   br i1 %0, label %B54.lr.ph.B54.epil.preheader_crit_edge, label %B54.lr.ph.new
 
-B54.lr.ph.B54.epil.preheader_crit_edge:           ; preds = %B54.lr.ph
-  %.pre = shl i64 %.13, 3
+B54.lr.ph.B54.epil.preheader_crit_edge:
+  %.pre = shl nuw nsw i64 %.13, 3
   br label %B54.epil.preheader
 
-B54.lr.ph.new:                                    ; preds = %B54.lr.ph
+B54.lr.ph.new:
   %unroll_iter = and i64 %.13, 9223372036854775804
   %1 = shl i64 %.13, 3
   %scevgep29 = getelementptr i8, ptr %arg.x, i64 24
   %scevgep37 = getelementptr i8, ptr %scevgep29, i64 %1
+  %sunkaddr44 = getelementptr i8, ptr %arg.r, i64 280
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 248
   br label %B54
 
-B54:                                              ; preds = %B196.3, %B54.lr.ph.new
+B54:
   %fits.2.051 = phi i1 [ true, %B54.lr.ph.new ], [ %"$phi196.1.3.1.3", %B196.3 ]
   %.1084749 = phi i64 [ 0, %B54.lr.ph.new ], [ %.115.35, %B196.3 ]
   br i1 %fits.2.051, label %B60, label %B196.3
 
-B60:                                              ; preds = %B54
+B60:
   %2 = shl i64 %.1084749, 3
   %scevgep38 = getelementptr i8, ptr %scevgep37, i64 %2
   %scevgep43 = getelementptr i8, ptr %scevgep38, i64 -24
   %.156 = load double, ptr %scevgep43, align 8
   %.157 = tail call double @llvm.fabs.f64(double %.156)
-  %sunkaddr44 = getelementptr i8, ptr %arg.r, i64 280
   %.160 = load i64, ptr %sunkaddr44, align 8
   %.161 = inttoptr i64 %.160 to ptr
   %scevgep21 = getelementptr i8, ptr %.161, i64 24
-  %3 = shl i64 %.1084749, 3
-  %scevgep22 = getelementptr i8, ptr %scevgep21, i64 %3
+  %scevgep22 = getelementptr i8, ptr %scevgep21, i64 %2
   %scevgep23 = getelementptr i8, ptr %scevgep22, i64 -24
   %.164 = load double, ptr %scevgep23, align 8
   %.165 = fcmp ugt double %.157, %.164
   br i1 %.165, label %B196.3, label %B196
 
-B196:                                             ; preds = %B60
-  %4 = shl i64 %.1084749, 3
-  %scevgep35 = getelementptr i8, ptr %scevgep29, i64 %4
+B196:
+  %scevgep35 = getelementptr i8, ptr %scevgep29, i64 %2
   %scevgep36 = getelementptr i8, ptr %scevgep35, i64 -24
   %.172 = load double, ptr %scevgep36, align 8
   %.175 = tail call double @llvm.fabs.f64(double %.172)
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 248
   %.179 = load double, ptr %sunkaddr, align 8
   %.180 = fcmp ugt double %.175, %.179
   br i1 %.180, label %B196.3, label %B60.1
 
-B60.1:                                            ; preds = %B196
-  %5 = inttoptr i64 %.160 to ptr
-  %6 = shl i64 %.1084749, 3
-  %scevgep41 = getelementptr i8, ptr %scevgep37, i64 %6
-  %scevgep42 = getelementptr i8, ptr %scevgep41, i64 -16
+B60.1:
+  %scevgep42 = getelementptr i8, ptr %scevgep38, i64 -16
   %.156.1 = load double, ptr %scevgep42, align 8
   %.157.1 = tail call double @llvm.fabs.f64(double %.156.1)
-  %scevgep18 = getelementptr i8, ptr %5, i64 24
-  %7 = shl i64 %.1084749, 3
-  %scevgep19 = getelementptr i8, ptr %scevgep18, i64 %7
-  %scevgep20 = getelementptr i8, ptr %scevgep19, i64 -16
+  %scevgep20 = getelementptr i8, ptr %scevgep22, i64 -16
   %.164.1 = load double, ptr %scevgep20, align 8
   %.165.1 = fcmp ugt double %.157.1, %.164.1
   br i1 %.165.1, label %B196.3, label %B196.1
 
-B196.1:                                           ; preds = %B60.1
-  %8 = shl i64 %.1084749, 3
-  %scevgep33 = getelementptr i8, ptr %scevgep29, i64 %8
-  %scevgep34 = getelementptr i8, ptr %scevgep33, i64 -16
+B196.1:
+  %scevgep34 = getelementptr i8, ptr %scevgep35, i64 -16
   %.172.1 = load double, ptr %scevgep34, align 8
   %.175.1 = tail call double @llvm.fabs.f64(double %.172.1)
   %.180.1 = fcmp ugt double %.175.1, %.179
   br i1 %.180.1, label %B196.3, label %B60.2
 
-B60.2:                                            ; preds = %B196.1
-  %9 = inttoptr i64 %.160 to ptr
-  %10 = shl i64 %.1084749, 3
-  %scevgep39 = getelementptr i8, ptr %scevgep37, i64 %10
-  %scevgep40 = getelementptr i8, ptr %scevgep39, i64 -8
+B60.2:
+  %scevgep40 = getelementptr i8, ptr %scevgep38, i64 -8
   %.156.2 = load double, ptr %scevgep40, align 8
   %.157.2 = tail call double @llvm.fabs.f64(double %.156.2)
-  %scevgep10 = getelementptr i8, ptr %9, i64 24
-  %11 = shl i64 %.1084749, 3
-  %scevgep16 = getelementptr i8, ptr %scevgep10, i64 %11
-  %scevgep17 = getelementptr i8, ptr %scevgep16, i64 -8
+  %scevgep17 = getelementptr i8, ptr %scevgep22, i64 -8
   %.164.2 = load double, ptr %scevgep17, align 8
   %.165.2 = fcmp ugt double %.157.2, %.164.2
   br i1 %.165.2, label %B196.3, label %B196.2
 
-B196.2:                                           ; preds = %B60.2
-  %12 = shl i64 %.1084749, 3
-  %scevgep31 = getelementptr i8, ptr %scevgep29, i64 %12
-  %scevgep32 = getelementptr i8, ptr %scevgep31, i64 -8
+B196.2:
+  %scevgep32 = getelementptr i8, ptr %scevgep35, i64 -8
   %.172.2 = load double, ptr %scevgep32, align 8
   %.175.2 = tail call double @llvm.fabs.f64(double %.172.2)
   %.180.2 = fcmp ugt double %.175.2, %.179
   br i1 %.180.2, label %B196.3, label %B60.3
 
-B60.3:                                            ; preds = %B196.2
-  %13 = inttoptr i64 %.160 to ptr
-  %sunkaddr45 = mul i64 %.1084749, 8
-  %sunkaddr46 = getelementptr i8, ptr %scevgep37, i64 %sunkaddr45
-  %.156.3 = load double, ptr %sunkaddr46, align 8
+B60.3:
+  %.156.3 = load double, ptr %scevgep38, align 8
   %.157.3 = tail call double @llvm.fabs.f64(double %.156.3)
-  %scevgep14 = getelementptr i8, ptr %13, i64 24
-  %14 = shl i64 %.1084749, 3
-  %scevgep = getelementptr i8, ptr %scevgep14, i64 %14
-  %.164.3 = load double, ptr %scevgep, align 8
+  %.164.3 = load double, ptr %scevgep22, align 8
   %.165.3 = fcmp ugt double %.157.3, %.164.3
   br i1 %.165.3, label %B196.3, label %B138.3
 
-B138.3:                                           ; preds = %B60.3
-  %15 = shl i64 %.1084749, 3
-  %scevgep30 = getelementptr i8, ptr %scevgep29, i64 %15
-  %.172.3 = load double, ptr %scevgep30, align 8
+B138.3:
+  %.172.3 = load double, ptr %scevgep35, align 8
   %.175.3 = tail call double @llvm.fabs.f64(double %.172.3)
   %.180.3 = fcmp ole double %.175.3, %.179
   br label %B196.3
 
-B196.3:                                           ; preds = %B138.3, %B60.3, %B196.2, %B60.2, %B196.1, %B60.1, %B196, %B60, %B54
+B196.3:
   %"$phi196.1.3.1.3" = phi i1 [ %.180.3, %B138.3 ], [ false, %B60.3 ], [ false, %B196.2 ], [ false, %B60.2 ], [ false, %B196.1 ], [ false, %B60.1 ], [ false, %B196 ], [ false, %B60 ], [ false, %B54 ]
   %.115.35 = add nuw nsw i64 %.1084749, 4
   %niter.ncmp.3 = icmp eq i64 %unroll_iter, %.115.35
   br i1 %niter.ncmp.3, label %B200.loopexit.unr-lcssa, label %B54
 
-B200.loopexit.unr-lcssa:                          ; preds = %B196.3
+B200.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B200.loopexit, label %B54.epil.preheader
 
-B54.epil.preheader:                               ; preds = %B200.loopexit.unr-lcssa, %B54.lr.ph.B54.epil.preheader_crit_edge
+B54.epil.preheader:
   %.pre-phi = phi i64 [ %.pre, %B54.lr.ph.B54.epil.preheader_crit_edge ], [ %1, %B200.loopexit.unr-lcssa ]
   %fits.2.051.epil.init = phi i1 [ true, %B54.lr.ph.B54.epil.preheader_crit_edge ], [ %"$phi196.1.3.1.3", %B200.loopexit.unr-lcssa ]
   %.1084749.epil.init = phi i64 [ 0, %B54.lr.ph.B54.epil.preheader_crit_edge ], [ %unroll_iter, %B200.loopexit.unr-lcssa ]
   %scevgep4 = getelementptr i8, ptr %arg.x, i64 %.pre-phi
+  %sunkaddr49 = getelementptr i8, ptr %arg.r, i64 280
+  %sunkaddr50 = getelementptr i8, ptr %arg.r, i64 248
   br label %B54.epil
 
-B54.epil:                                         ; preds = %B196.epil, %B54.epil.preheader
+B54.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B196.epil ], [ %xtraiter, %B54.epil.preheader ]
   %fits.2.051.epil = phi i1 [ %"$phi196.1.3.1.epil", %B196.epil ], [ %fits.2.051.epil.init, %B54.epil.preheader ]
   %.1084749.epil = phi i64 [ %.115.epil, %B196.epil ], [ %.1084749.epil.init, %B54.epil.preheader ]
   br i1 %fits.2.051.epil, label %B60.epil, label %B196.epil
 
-B60.epil:                                         ; preds = %B54.epil
-  %16 = shl i64 %.1084749.epil, 3
-  %scevgep5 = getelementptr i8, ptr %scevgep4, i64 %16
+B60.epil:
+  %3 = shl i64 %.1084749.epil, 3
+  %scevgep5 = getelementptr i8, ptr %scevgep4, i64 %3
   %.156.epil = load double, ptr %scevgep5, align 8
   %.157.epil = tail call double @llvm.fabs.f64(double %.156.epil)
-  %sunkaddr49 = getelementptr i8, ptr %arg.r, i64 280
   %.160.epil = load i64, ptr %sunkaddr49, align 8
   %.161.epil = inttoptr i64 %.160.epil to ptr
-  %17 = shl i64 %.1084749.epil, 3
-  %scevgep8 = getelementptr i8, ptr %.161.epil, i64 %17
+  %scevgep8 = getelementptr i8, ptr %.161.epil, i64 %3
   %.164.epil = load double, ptr %scevgep8, align 8
   %.165.epil = fcmp ugt double %.157.epil, %.164.epil
   br i1 %.165.epil, label %B196.epil, label %B138.epil
 
-B138.epil:                                        ; preds = %B60.epil
-  %18 = shl i64 %.1084749.epil, 3
-  %scevgep7 = getelementptr i8, ptr %arg.x, i64 %18
+B138.epil:
+  %scevgep7 = getelementptr i8, ptr %arg.x, i64 %3
   %.172.epil = load double, ptr %scevgep7, align 8
   %.175.epil = tail call double @llvm.fabs.f64(double %.172.epil)
-  %sunkaddr50 = getelementptr i8, ptr %arg.r, i64 248
   %.179.epil = load double, ptr %sunkaddr50, align 8
   %.180.epil = fcmp ole double %.175.epil, %.179.epil
   br label %B196.epil
 
-B196.epil:                                        ; preds = %B138.epil, %B60.epil, %B54.epil
+B196.epil:
   %"$phi196.1.3.1.epil" = phi i1 [ %.180.epil, %B138.epil ], [ false, %B60.epil ], [ false, %B54.epil ]
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %.115.epil = add nuw nsw i64 %.1084749.epil, 1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B200.loopexit, label %B54.epil, !llvm.loop !173
+  br i1 %epil.iter.cmp.not, label %B200.loopexit, label %B54.epil, !llvm.loop !212
 
-B200.loopexit:                                    ; preds = %B196.epil, %B200.loopexit.unr-lcssa
+B200.loopexit:
   %"$phi196.1.3.1.lcssa" = phi i1 [ %"$phi196.1.3.1.3", %B200.loopexit.unr-lcssa ], [ %"$phi196.1.3.1.epil", %B196.epil ]
-  %19 = zext i1 %"$phi196.1.3.1.lcssa" to i8
+  %4 = zext i1 %"$phi196.1.3.1.lcssa" to i8
   br label %B200
 
-B200:                                             ; preds = %B200.loopexit, %B0.endif
-  %fits.2.0.lcssa = phi i8 [ 1, %B0.endif ], [ %19, %B200.loopexit ]
+B200:
+  %fits.2.0.lcssa = phi i8 [ 1, %B0.endif ], [ %4, %B200.loopexit ]
   store i8 %fits.2.0.lcssa, ptr %retptr, align 1
   ret i32 0
 }
 
-define i64 @fixed(ptr %.1, double %.2, double %.3, i64 %.4) local_unnamed_addr {
+
+define i64 @fixed(ptr %.1, double %.2, double %.3, i64 %.4) local_unnamed_addr #0 {
 entry:
   %.6 = alloca i64, align 8
   store i64 0, ptr %.6, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2addx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, double %.3, i64 %.4) #9
-  %.11 = load ptr, ptr %excinfo, align 8
-  %.20 = load i64, ptr %.6, align 8
-  %.22 = alloca i32, align 4
-  store i32 0, ptr %.22, align 4
+  %.10 = call i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2addx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, double %.3, i64 %.4) #0
   %cond = icmp eq i32 %.10, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.18 = icmp sgt i32 %.10, 0
-  call void @numba_gil_ensure(ptr nonnull %.22)
-  br i1 %.18, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.25, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.20, %.25 ], [ %.20, %entry ]
-  ret i64 %common.ret.op
-
-.25:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.73 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.38")
-  call void @PyErr_WriteUnraisable(ptr %.73)
-  call void @Py_DecRef(ptr %.73)
-  call void @numba_gil_release(ptr nonnull %.22)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.28 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.29 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 4
-  %.30 = icmp sgt i32 %.29, 0
-  %.33 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 0
-  %.35 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 1
-  br i1 %.30, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.10, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.25
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.36 = sext i32 %.35 to i64
-  %.37 = call ptr @PyBytes_FromStringAndSize(ptr %.33, i64 %.36)
-  %.38 = load { ptr, i32, ptr, ptr, i32 }, ptr %.11, align 8
-  %.39 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 2
-  %.41 = extractvalue { ptr, i32, ptr, ptr, i32 } %.38, 3
-  %.43 = call ptr %.41(ptr %.39)
-  %.44 = icmp eq ptr %.43, null
-  br i1 %.44, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.57 = extractvalue { ptr, i32, ptr, ptr, i32 } %.28, 2
-  %.58 = call ptr @numba_unpickle(ptr %.33, i32 %.35, ptr %.57)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.60 = phi ptr [ %.48, %entry.if.if.if.endif ], [ %.58, %entry.if.if.else ]
-  %.61.not = icmp eq ptr %.60, null
-  br i1 %.61.not, label %.25, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.39")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.48 = call ptr @numba_runtime_build_excinfo_struct(ptr %.37, ptr nonnull %.43)
-  call void @NRT_Free(ptr nonnull %.11)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.60)
-  br label %.25
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.25
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.40")
-  br label %.25
+common.ret:
+  %.20 = load i64, ptr %.6, align 8
+  ret i64 %.20
 }
 
 define i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((440, 448)) %arg.r, double %arg.t_next) local_unnamed_addr {
 for.end.endif:
+  %.6.i11 = alloca ptr, align 8
+  %excinfo.i12 = alloca ptr, align 8
+  %.6.i5 = alloca ptr, align 8
+  %excinfo.i6 = alloca ptr, align 8
+  %.5.i = alloca i64, align 8
+  %excinfo.i1 = alloca ptr, align 8
+  %.6.i = alloca i64, align 8
+  %excinfo.i = alloca ptr, align 8
   %.189 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
   %.465 = alloca i64, align 8
@@ -7562,7 +6716,7 @@ for.end.endif:
   store ptr null, ptr %excinfo.9, align 8
   %.11 = getelementptr i8, ptr %arg.r, i64 328
   %.13 = load double, ptr %.11, align 8
-  %.15.i = tail call double @nextafter(double %arg.t_next, double 0xFFF0000000000000), !noalias !174
+  %.15.i = tail call double @nextafter(double %arg.t_next, double 0xFFF0000000000000), !noalias !213
   %.77 = getelementptr i8, ptr %arg.r, i64 440
   store double %.15.i, ptr %.77, align 8
   %.82 = fsub double %arg.t_next, %.13
@@ -7576,187 +6730,213 @@ for.end.endif:
   %"$phi230.4.2.0" = select i1 %.12.i, double %.86, double %.82
   %.193 = call i32 @_ZN18biped_adrc_kernels5beginB3v61B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.189, ptr nonnull %excinfo.3, ptr nonnull %arg.r, double %.13, double %"$phi230.4.2.0")
   %cond = icmp eq i32 %.193, 0
-  br i1 %cond, label %B230.endif, label %B230.if.if, !prof !8
+  br i1 %cond, label %B230.endif, label %B230.if.if, !prof !24
 
-B316:                                             ; preds = %B316.preheader, %B948
+B316:
   %t.2.0 = phi double [ %t1.2.176, %B948 ], [ %.13, %B316.preheader ]
   %skipped.3.0 = phi i64 [ %skipped.4.1, %B948 ], [ 0, %B316.preheader ]
-  %steps.2.0 = phi i64 [ %.266, %B948 ], [ 0, %B316.preheader ]
-  %0 = add i64 %steps.2.0, 1
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
+  %steps.2.0 = phi i64 [ %0, %B948 ], [ 0, %B316.preheader ]
+  %0 = add nuw nsw i64 %steps.2.0, 1
   %.274 = load i64, ptr %sunkaddr, align 8
   %.275 = icmp eq i64 %.274, 2
   br i1 %.275, label %B358, label %B392
 
-B358:                                             ; preds = %B316
-  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 328
-  %.8.i = load double, ptr %sunkaddr40, align 8, !noalias !177
+B358:
+  %.8.i = load double, ptr %.11, align 8, !noalias !216
   br label %B516
 
-B392:                                             ; preds = %B316
+B392:
   %.318 = uitofp nneg i64 %0 to double
   %.319 = fcmp ogt double %.13.i, %.318
   br i1 %.319, label %B404, label %B504
 
-B404:                                             ; preds = %B392
-  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 232
-  %.324 = load double, ptr %sunkaddr41, align 8
+B404:
+  %.324 = load double, ptr %.84, align 8
   %.327 = fmul double %.324, %.318
   %.329 = fadd double %.13, %.327
   br label %B504
 
-B504:                                             ; preds = %B404, %B392
+B504:
   %"$phi432.0.2.1" = phi double [ %.329, %B404 ], [ %arg.t_next, %B392 ]
   %.346 = fcmp ole double %.13.i, %.318
   %.15.i6 = zext i1 %.346 to i64
-  %.374 = tail call i64 @fixed(ptr nonnull %arg.r, double %t.2.0, double %"$phi432.0.2.1", i64 %.15.i6)
-  %.379.not = icmp eq i64 %.374, 0
+  store i64 0, ptr %.6.i, align 8
+  %.10.i = call i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2addx(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %t.2.0, double %"$phi432.0.2.1", i64 %.15.i6) #0
+  %cond.i = icmp eq i32 %.10.i, 0
+  br i1 %cond.i, label %fixed.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+fixed.exit:
+  %.20.i = load i64, ptr %.6.i, align 8
+  %.379.not = icmp eq i64 %.20.i, 0
   br i1 %.379.not, label %B516, label %B578
 
-B516:                                             ; preds = %B504, %B358
-  %t1.2.176 = phi double [ %"$phi432.0.2.1", %B504 ], [ %.8.i, %B358 ]
+B516:
+  %t1.2.176 = phi double [ %"$phi432.0.2.1", %fixed.exit ], [ %.8.i, %B358 ]
   %.383 = fcmp ole double %t1.2.176, %t.2.0
   %.386 = icmp samesign ugt i64 %steps.2.0, 9999999
   %or.cond = select i1 %.383, i1 true, i1 %.386
   br i1 %or.cond, label %B578, label %B580
 
-common.ret:                                       ; preds = %B788.if.if, %B750.if.if, %B652.if.if, %B230.if.if, %B962, %B682, %B578
+common.ret:
   %common.ret.op = phi i32 [ 0, %B578 ], [ 0, %B682 ], [ 0, %B962 ], [ %.579, %B788.if.if ], [ %.544, %B750.if.if ], [ %.193, %B230.if.if ], [ %.469, %B652.if.if ]
   ret i32 %common.ret.op
 
-B578:                                             ; preds = %B516, %B504
-  %"$phi578.0.2.0" = phi i64 [ %.374, %B504 ], [ 6, %B516 ]
+B578:
+  %"$phi578.0.2.0" = phi i64 [ %.20.i, %fixed.exit ], [ 6, %B516 ]
   store i64 %"$phi578.0.2.0", ptr %retptr, align 8
   br label %common.ret
 
-B580:                                             ; preds = %B516
-  %.429 = tail call i64 @event(ptr nonnull %arg.r, double %t.2.0, double %t1.2.176)
-  switch i64 %.429, label %B652 [
+B580:
+  store i64 0, ptr %.5.i, align 8
+  %.9.i = call i32 @_ZN18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull %excinfo.i1, ptr nonnull %arg.r, double %t.2.0, double %t1.2.176) #0
+  %cond.i2 = icmp eq i32 %.9.i, 0
+  br i1 %cond.i2, label %event.exit, label %entry.if.i3, !prof !24
+
+entry.if.i3:
+  tail call void @llvm.trap()
+  unreachable
+
+event.exit:
+  %.19.i4 = load i64, ptr %.5.i, align 8
+  switch i64 %.19.i4, label %B652 [
     i64 0, label %B684
-    i64 7, label %B682.loopexit
+    i64 7, label %B682
   ]
 
-B652:                                             ; preds = %B580
+B652:
   store i64 0, ptr %.465, align 8
-  %.469 = call i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr nonnull %.465, ptr nonnull %excinfo.7, ptr nonnull %arg.r, i64 %.429)
+  %.469 = call i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr nonnull %.465, ptr nonnull %excinfo.7, ptr nonnull %arg.r, i64 %.19.i4)
   %.479 = load i64, ptr %.465, align 8
   %cond7 = icmp eq i32 %.469, 0
-  br i1 %cond7, label %B682, label %B652.if.if, !prof !8
+  br i1 %cond7, label %B682, label %B652.if.if, !prof !24
 
-B682.loopexit:                                    ; preds = %B580
-  br label %B682
-
-B682:                                             ; preds = %B682.loopexit, %B652
-  %"$phi682.0.2.0" = phi i64 [ %.479, %B652 ], [ %.429, %B682.loopexit ]
+B682:
+  %"$phi682.0.2.0" = phi i64 [ %.479, %B652 ], [ %.19.i4, %event.exit ]
   store i64 %"$phi682.0.2.0", ptr %retptr, align 8
   br label %common.ret
 
-B684:                                             ; preds = %B580
+B684:
   %.502 = add nsw i64 %skipped.3.0, 1
-  %sunkaddr42 = getelementptr i8, ptr %arg.r, i64 384
-  %.514 = load i64, ptr %sunkaddr42, align 8
+  %.514 = load i64, ptr %.17.i, align 8
   %.515 = icmp sgt i64 %.514, 0
   br i1 %.515, label %B716, label %B788
 
-B716:                                             ; preds = %B684
+B716:
   %.521 = fcmp oge double %t1.2.176, %arg.t_next
   %.530 = icmp sge i64 %.502, %.514
   %or.cond83 = select i1 %.521, i1 true, i1 %.530
   br i1 %or.cond83, label %B750, label %B788
 
-B750:                                             ; preds = %B716
+B750:
   %.544 = call i32 @_ZN18biped_adrc_kernels5nodesB3v67B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.540, ptr nonnull %excinfo.8, ptr nonnull %arg.r, double %t.2.0, double %t1.2.176)
   %cond8 = icmp eq i32 %.544, 0
-  br i1 %cond8, label %B788, label %B750.if.if, !prof !8
+  br i1 %cond8, label %B788, label %B750.if.if, !prof !24
 
-B788:                                             ; preds = %B750, %B716, %B684
+B788:
   %skipped.4.1 = phi i64 [ %.502, %B684 ], [ %.502, %B716 ], [ 0, %B750 ]
   %.579 = call i32 @_ZN18biped_adrc_kernels7pass_onB3v68B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.575, ptr nonnull %excinfo.9, ptr nonnull %arg.r)
   %cond9 = icmp eq i32 %.579, 0
-  br i1 %cond9, label %B788.endif, label %B788.if.if, !prof !8
+  br i1 %cond9, label %B788.endif, label %B788.if.if, !prof !24
 
-B858:                                             ; preds = %B788.endif
+B858:
   %.617 = fcmp olt double %t1.2.176, %arg.t_next
   br i1 %.617, label %B892, label %B870
 
-B870:                                             ; preds = %B858
-  %sunkaddr43 = getelementptr i8, ptr %arg.r, i64 192
+B870:
   %.621 = load i64, ptr %sunkaddr43, align 8
   %.622.not = icmp eq i64 %.621, 0
   br i1 %.622.not, label %B948, label %B892
 
-B892:                                             ; preds = %B870, %B858
-  %sunkaddr44 = getelementptr i8, ptr %arg.r, i64 544
-  %.626 = load i64, ptr %sunkaddr44, align 8
+B892:
+  %.626 = load i64, ptr %.223, align 8
   %.627 = inttoptr i64 %.626 to ptr
-  %sunkaddr45 = getelementptr i8, ptr %arg.r, i64 552
-  %.630 = load i64, ptr %sunkaddr45, align 8
+  %.630 = load i64, ptr %.227, align 8
   %.631 = inttoptr i64 %.630 to ptr
-  %.634 = tail call ptr @node(ptr nonnull %arg.r, double %t1.2.176, ptr %.627, ptr %.631)
+  %.10.i7 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i5, ptr nonnull %excinfo.i6, ptr nonnull %arg.r, double %t1.2.176, ptr readonly %.627, ptr readonly %.631) #0
+  %cond.i8 = icmp eq i32 %.10.i7, 0
+  br i1 %cond.i8, label %node.exit, label %entry.if.i9, !prof !24
+
+entry.if.i9:
+  tail call void @llvm.trap()
+  unreachable
+
+node.exit:
   br label %B948
 
-B948:                                             ; preds = %B788.endif, %B892, %B870
+B948:
   %.656 = fcmp olt double %t1.2.176, %arg.t_next
-  %.266 = add nuw nsw i64 %steps.2.0, 1
   br i1 %.656, label %B316, label %B962
 
-B962:                                             ; preds = %B230.endif.endif, %B948
+B962:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B230.endif:                                       ; preds = %for.end.endif
+B230.endif:
   %.223 = getelementptr i8, ptr %arg.r, i64 544
   %.224 = load i64, ptr %.223, align 8
   %.227 = getelementptr i8, ptr %arg.r, i64 552
   %.228 = load i64, ptr %.227, align 8
   %.17.i = getelementptr i8, ptr %arg.r, i64 384
-  %.18.i = load i64, ptr %.17.i, align 8, !noalias !180
+  %.18.i = load i64, ptr %.17.i, align 8, !noalias !219
   %.19.i = icmp sgt i64 %.18.i, 0
   br i1 %.19.i, label %B48.i, label %B26.i
 
-B26.i:                                            ; preds = %B230.endif
+B26.i:
   %.22.i = getelementptr i8, ptr %arg.r, i64 64
-  %.23.i = load i64, ptr %.22.i, align 8, !noalias !180
+  %.23.i = load i64, ptr %.22.i, align 8, !noalias !219
   %.24.not.i = icmp eq i64 %.23.i, 0
   br i1 %.24.not.i, label %B230.endif.endif, label %B48.i
 
-B48.i:                                            ; preds = %B26.i, %B230.endif
+B48.i:
   %1 = inttoptr i64 %.228 to ptr
   %2 = inttoptr i64 %.224 to ptr
-  %.30.i = tail call ptr @node(ptr nonnull %arg.r, double %.13, ptr %2, ptr %1), !noalias !180
+  %.10.i13 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i11, ptr nonnull %excinfo.i12, ptr nonnull %arg.r, double %.13, ptr readonly %2, ptr readonly %1) #0, !noalias !219
+  %cond.i14 = icmp eq i32 %.10.i13, 0
+  br i1 %cond.i14, label %node.exit17, label %entry.if.i15, !prof !24
+
+entry.if.i15:
+  tail call void @llvm.trap(), !noalias !219
+  unreachable
+
+node.exit17:
   br label %B230.endif.endif
 
-B230.if.if:                                       ; preds = %for.end.endif
+B230.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B230.endif.endif:                                 ; preds = %B48.i, %B26.i
+B230.endif.endif:
   %.258 = fcmp olt double %.13, %arg.t_next
   br i1 %.258, label %B316.preheader, label %B962
 
-B316.preheader:                                   ; preds = %B230.endif.endif
+B316.preheader:
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
+  %sunkaddr47 = getelementptr i8, ptr %arg.r, i64 64
+  %sunkaddr43 = getelementptr i8, ptr %arg.r, i64 192
   br label %B316
 
-B652.if.if:                                       ; preds = %B652
+B652.if.if:
   %.477 = icmp sgt i32 %.469, 0
   %.470 = load ptr, ptr %excinfo.7, align 8
   %.478 = select i1 %.477, ptr %.470, ptr undef
   store ptr %.478, ptr %excinfo, align 8
   br label %common.ret
 
-B750.if.if:                                       ; preds = %B750
+B750.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B788.endif:                                       ; preds = %B788
-  %sunkaddr46 = getelementptr i8, ptr %arg.r, i64 328
-  store double %t1.2.176, ptr %sunkaddr46, align 8
-  %sunkaddr47 = getelementptr i8, ptr %arg.r, i64 64
+B788.endif:
+  store double %t1.2.176, ptr %.11, align 8
   %.612 = load i64, ptr %sunkaddr47, align 8
   %.613.not = icmp eq i64 %.612, 0
   br i1 %.613.not, label %B948, label %B858
 
-B788.if.if:                                       ; preds = %B788
+B788.if.if:
   %.587 = icmp sgt i32 %.579, 0
   %.580 = load ptr, ptr %excinfo.9, align 8
   %.588 = select i1 %.587, ptr %.580, ptr undef
@@ -7764,68 +6944,90 @@ B788.if.if:                                       ; preds = %B788
   br label %common.ret
 }
 
-; Function Attrs: nofree nounwind memory(read)
-declare double @nextafter(double, double) local_unnamed_addr #6
+
+declare double @nextafter(double, double) local_unnamed_addr #4
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels5beginB3v61B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t, double %arg.h) local_unnamed_addr {
 B0:
+  %.6.i7 = alloca ptr, align 8
+  %excinfo.i8 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i3 = alloca ptr, align 8
+  %.7.i1 = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.14 = getelementptr i8, ptr %arg.r, i64 144
   %.15 = load i64, ptr %.14, align 8
   %.16 = icmp eq i64 %.15, 1
   br i1 %.16, label %B36.endif, label %B146
 
-B146:                                             ; preds = %B36.endif, %B0
-  %.68 = phi i64 [ %.68.pr, %B36.endif ], [ %.15, %B0 ]
+B146:
+  %.68 = phi i64 [ %.68.pr, %remainder.exit ], [ %.15, %B0 ]
   switch i64 %.68, label %B314 [
     i64 0, label %B178
     i64 1, label %B292
   ]
 
-B178:                                             ; preds = %B146
+B178:
   %.72 = getelementptr i8, ptr %arg.r, i64 160
   %.73 = load i64, ptr %.72, align 8
   %.74 = icmp sgt i64 %.73, 0
   br i1 %.74, label %B200, label %B314
 
-B200:                                             ; preds = %B178
+B200:
   %.77 = getelementptr i8, ptr %arg.r, i64 544
   %.78 = load i64, ptr %.77, align 8
   %.79 = inttoptr i64 %.78 to ptr
   %.81 = getelementptr i8, ptr %arg.r, i64 552
   %.82 = load i64, ptr %.81, align 8
   %.83 = inttoptr i64 %.82 to ptr
-  %.87 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %.79, double %arg.h, ptr %.83)
+  %.11.i2 = call i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr nonnull %.7.i1, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.t, ptr readonly %.79, double %arg.h, ptr %.83) #0
+  %cond.i = icmp eq i32 %.11.i2, 0
+  br i1 %cond.i, label %lagging.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+lagging.exit:
   br label %common.ret
 
-B292:                                             ; preds = %B146
+B292:
   %.101 = getelementptr i8, ptr %arg.r, i64 384
   %.102 = load i64, ptr %.101, align 8
   %.103 = icmp sgt i64 %.102, 0
   br i1 %.103, label %B314, label %common.ret
 
-B314:                                             ; preds = %B292, %B178, %B146
+B314:
   %.106 = getelementptr i8, ptr %arg.r, i64 416
   %.107 = load i64, ptr %.106, align 8
   %.108 = icmp eq i64 %.107, 0
   br i1 %.108, label %B336, label %common.ret
 
-B336:                                             ; preds = %B314
+B336:
   %.111 = getelementptr i8, ptr %arg.r, i64 544
   %.112 = load i64, ptr %.111, align 8
   %.113 = inttoptr i64 %.112 to ptr
   %.115 = getelementptr i8, ptr %arg.r, i64 552
   %.116 = load i64, ptr %.115, align 8
   %.117 = inttoptr i64 %.116 to ptr
-  %.120 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t, ptr %.113, ptr %.117)
+  %.10.i4 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %arg.t, ptr readonly %.113, ptr %.117) #0
+  %cond.i5 = icmp eq i32 %.10.i4, 0
+  br i1 %cond.i5, label %flow.exit, label %entry.if.i6, !prof !24
+
+entry.if.i6:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit:
   br label %common.ret
 
-common.ret:                                       ; preds = %B336, %B314, %B292, %B200
+common.ret:
   %.127 = getelementptr i8, ptr %arg.r, i64 416
   store i64 0, ptr %.127, align 8
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
-B36.endif:                                        ; preds = %B0
+B36.endif:
   %.20 = getelementptr i8, ptr %arg.r, i64 544
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
@@ -7833,25 +7035,36 @@ B36.endif:                                        ; preds = %B0
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
   %.7.i = getelementptr i8, ptr %arg.r, i64 32
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !183
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !222
   %.9.i = getelementptr i8, ptr %arg.r, i64 256
-  %.10.i = load i64, ptr %.9.i, align 8, !noalias !183
+  %.10.i = load i64, ptr %.9.i, align 8, !noalias !222
   %.11.i = inttoptr i64 %.10.i to ptr
   %.12.i = inttoptr i64 %.8.i to ptr
-  tail call void %.12.i(ptr %.11.i, ptr %.22, ptr %.26), !noalias !183
+  tail call void %.12.i(ptr %.11.i, ptr %.22, ptr %.26), !noalias !222
   %.56 = load i64, ptr %.24, align 8
   %.57 = inttoptr i64 %.56 to ptr
   %.59 = getelementptr i8, ptr %arg.r, i64 704
   %.60 = load i64, ptr %.59, align 8
   %.61 = inttoptr i64 %.60 to ptr
-  %.64 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t, ptr %.57, ptr %.61)
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
-  %.68.pr = load i64, ptr %sunkaddr, align 8
+  %.10.i9 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i7, ptr nonnull %excinfo.i8, ptr nonnull %arg.r, double %arg.t, ptr %.57, ptr %.61) #0
+  %cond.i10 = icmp eq i32 %.10.i9, 0
+  br i1 %cond.i10, label %remainder.exit, label %entry.if.i11, !prof !24
+
+entry.if.i11:
+  tail call void @llvm.trap()
+  unreachable
+
+remainder.exit:
+  %.68.pr = load i64, ptr %.14, align 8
   br label %B146
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.code) local_unnamed_addr {
 B0:
+  %.6.i2 = alloca ptr, align 8
+  %excinfo.i3 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.107 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
   %.11 = getelementptr i8, ptr %arg.r, i64 448
@@ -7863,196 +7076,211 @@ B0:
   %.9240.not.i = icmp slt i64 %.24, 1
   br i1 %.9240.not.i, label %B100, label %iter.check.i
 
-iter.check.i:                                     ; preds = %B0
+iter.check.i:
   %min.iters.check.i = icmp samesign ult i64 %.24, 4
   br i1 %min.iters.check.i, label %iter.check.i.B40.i.preheader_crit_edge, label %vector.main.loop.iter.check.i
 
-iter.check.i.B40.i.preheader_crit_edge:           ; preds = %iter.check.i
+iter.check.i.B40.i.preheader_crit_edge:
   %.pre = inttoptr i64 %.20 to ptr
   br label %B40.i.preheader
 
-vector.main.loop.iter.check.i:                    ; preds = %iter.check.i
-  %const = bitcast i64 9223372036854775792 to i64
+vector.main.loop.iter.check.i:
   %min.iters.check1.i = icmp samesign ult i64 %.24, 16
   br i1 %min.iters.check1.i, label %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge, label %vector.ph.i
 
-vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge: ; preds = %vector.main.loop.iter.check.i
+vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge:
   %.pre13 = inttoptr i64 %.20 to ptr
   br label %vec.epilog.ph.i
 
-vector.ph.i:                                      ; preds = %vector.main.loop.iter.check.i
-  %n.vec.i = and i64 %.24, %const
+vector.ph.i:
+  %n.vec.i = and i64 %.24, 9223372036854775792
+  %0 = inttoptr i64 %.20 to ptr
   br label %vector.body.i
 
-vector.body.i:                                    ; preds = %vector.body.i, %vector.ph.i
+vector.body.i:
   %index.i = phi i64 [ 0, %vector.ph.i ], [ %index.next.i, %vector.body.i ]
-  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %6, %vector.body.i ]
-  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %7, %vector.body.i ]
-  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %8, %vector.body.i ]
-  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %9, %vector.body.i ]
-  %0 = inttoptr i64 %.20 to ptr
+  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %9, %vector.body.i ]
+  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %10, %vector.body.i ]
+  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %11, %vector.body.i ]
+  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %12, %vector.body.i ]
   %sunkaddr45 = shl i64 %index.i, 3
   %sunkaddr46 = getelementptr i8, ptr %0, i64 %sunkaddr45
-  %wide.load.i = load <4 x double>, ptr %sunkaddr46, align 8, !noalias !186
+  %wide.load.i = load <4 x double>, ptr %sunkaddr46, align 8, !noalias !225
   %sunkaddr50 = getelementptr i8, ptr %sunkaddr46, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr50, align 8, !noalias !186
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr50, align 8, !noalias !225
   %sunkaddr54 = getelementptr i8, ptr %sunkaddr46, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr54, align 8, !noalias !186
-  %1 = shl i64 %index.i, 3
-  %scevgep = getelementptr i8, ptr %0, i64 %1
-  %scevgep31 = getelementptr i8, ptr %scevgep, i64 96
-  %wide.load7.i = load <4 x double>, ptr %scevgep31, align 8, !noalias !186
-  %2 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load.i, i32 504)
-  %3 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load5.i, i32 504)
-  %4 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load6.i, i32 504)
-  %5 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load7.i, i32 504)
-  %6 = and <4 x i1> %vec.phi.i, %2
-  %7 = and <4 x i1> %vec.phi2.i, %3
-  %8 = and <4 x i1> %vec.phi3.i, %4
-  %9 = and <4 x i1> %vec.phi4.i, %5
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr54, align 8, !noalias !225
+  %scevgep31 = getelementptr i8, ptr %sunkaddr46, i64 96
+  %wide.load7.i = load <4 x double>, ptr %scevgep31, align 8, !noalias !225
+  %1 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
+  %2 = fcmp one <4 x double> %1, splat (double 0x7FF0000000000000)
+  %3 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
+  %4 = fcmp one <4 x double> %3, splat (double 0x7FF0000000000000)
+  %5 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load6.i)
+  %6 = fcmp one <4 x double> %5, splat (double 0x7FF0000000000000)
+  %7 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load7.i)
+  %8 = fcmp one <4 x double> %7, splat (double 0x7FF0000000000000)
+  %9 = and <4 x i1> %vec.phi.i, %2
+  %10 = and <4 x i1> %vec.phi2.i, %4
+  %11 = and <4 x i1> %vec.phi3.i, %6
+  %12 = and <4 x i1> %vec.phi4.i, %8
   %index.next.i = add nuw nsw i64 %index.i, 16
-  %10 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %10, label %middle.block.i, label %vector.body.i, !llvm.loop !189
+  %13 = icmp eq i64 %n.vec.i, %index.next.i
+  br i1 %13, label %middle.block.i, label %vector.body.i, !llvm.loop !228
 
-middle.block.i:                                   ; preds = %vector.body.i
-  %bin.rdx.i = and <4 x i1> %6, %7
-  %bin.rdx8.i = and <4 x i1> %8, %bin.rdx.i
-  %bin.rdx9.i = and <4 x i1> %9, %bin.rdx8.i
-  %11 = bitcast <4 x i1> %bin.rdx9.i to i4
-  %12 = icmp eq i4 %11, -1
+middle.block.i:
+  %bin.rdx.i = and <4 x i1> %9, %10
+  %bin.rdx8.i = and <4 x i1> %11, %bin.rdx.i
+  %bin.rdx9.i = and <4 x i1> %12, %bin.rdx8.i
+  %14 = bitcast <4 x i1> %bin.rdx9.i to i4
+  %15 = icmp eq i4 %14, -1
   %cmp.n.i = icmp eq i64 %.24, %n.vec.i
   br i1 %cmp.n.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %vec.epilog.iter.check.i
 
-vec.epilog.iter.check.i:                          ; preds = %middle.block.i
-  %13 = inttoptr i64 %.20 to ptr
-  %14 = and i64 %.24, 12
-  %min.epilog.iters.check.i = icmp eq i64 %14, 0
-  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !21
+vec.epilog.iter.check.i:
+  %16 = and i64 %.24, 12
+  %min.epilog.iters.check.i = icmp eq i64 %16, 0
+  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !20
 
-vec.epilog.ph.i:                                  ; preds = %vec.epilog.iter.check.i, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge
-  %.pre-phi14 = phi ptr [ %.pre13, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %13, %vec.epilog.iter.check.i ]
+vec.epilog.ph.i:
+  %.pre-phi14 = phi ptr [ %.pre13, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %0, %vec.epilog.iter.check.i ]
   %vec.epilog.resume.val.i = phi i64 [ 0, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %n.vec.i, %vec.epilog.iter.check.i ]
-  %bc.merge.rdx.i = phi i1 [ true, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %12, %vec.epilog.iter.check.i ]
-  %const_mat = add i64 %const, 12
-  %n.vec11.i = and i64 %.24, %const_mat
-  %15 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
+  %bc.merge.rdx.i = phi i1 [ true, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %15, %vec.epilog.iter.check.i ]
+  %n.vec11.i = and i64 %.24, 9223372036854775804
+  %17 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
   br label %vec.epilog.vector.body.i
 
-vec.epilog.vector.body.i:                         ; preds = %vec.epilog.vector.body.i, %vec.epilog.ph.i
+vec.epilog.vector.body.i:
   %index12.i = phi i64 [ %vec.epilog.resume.val.i, %vec.epilog.ph.i ], [ %index.next15.i, %vec.epilog.vector.body.i ]
-  %vec.phi13.i = phi <4 x i1> [ %15, %vec.epilog.ph.i ], [ %18, %vec.epilog.vector.body.i ]
-  %16 = shl i64 %index12.i, 3
-  %scevgep28.i = getelementptr i8, ptr %.pre-phi14, i64 %16
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !186
-  %17 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load14.i, i32 504)
-  %18 = and <4 x i1> %vec.phi13.i, %17
+  %vec.phi13.i = phi <4 x i1> [ %17, %vec.epilog.ph.i ], [ %21, %vec.epilog.vector.body.i ]
+  %18 = shl i64 %index12.i, 3
+  %scevgep28.i = getelementptr i8, ptr %.pre-phi14, i64 %18
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !225
+  %19 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
+  %20 = fcmp one <4 x double> %19, splat (double 0x7FF0000000000000)
+  %21 = and <4 x i1> %vec.phi13.i, %20
   %index.next15.i = add nuw i64 %index12.i, 4
-  %19 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %19, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !190
+  %22 = icmp eq i64 %n.vec11.i, %index.next15.i
+  br i1 %22, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !229
 
-vec.epilog.middle.block.i:                        ; preds = %vec.epilog.vector.body.i
-  %20 = bitcast <4 x i1> %18 to i4
-  %21 = icmp eq i4 %20, -1
+vec.epilog.middle.block.i:
+  %23 = bitcast <4 x i1> %21 to i4
+  %24 = icmp eq i4 %23, -1
   %cmp.n16.i = icmp eq i64 %.24, %n.vec11.i
   br i1 %cmp.n16.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i.preheader
 
-B40.i.preheader:                                  ; preds = %vec.epilog.middle.block.i, %vec.epilog.iter.check.i, %iter.check.i.B40.i.preheader_crit_edge
-  %.pre-phi = phi ptr [ %.pre, %iter.check.i.B40.i.preheader_crit_edge ], [ %13, %vec.epilog.iter.check.i ], [ %.pre-phi14, %vec.epilog.middle.block.i ]
-  %good.2.043.i.ph = phi i1 [ true, %iter.check.i.B40.i.preheader_crit_edge ], [ %12, %vec.epilog.iter.check.i ], [ %21, %vec.epilog.middle.block.i ]
+B40.i.preheader:
+  %.pre-phi = phi ptr [ %.pre, %iter.check.i.B40.i.preheader_crit_edge ], [ %0, %vec.epilog.iter.check.i ], [ %.pre-phi14, %vec.epilog.middle.block.i ]
+  %good.2.043.i.ph = phi i1 [ true, %iter.check.i.B40.i.preheader_crit_edge ], [ %15, %vec.epilog.iter.check.i ], [ %24, %vec.epilog.middle.block.i ]
   %.983941.i.ph = phi i64 [ 0, %iter.check.i.B40.i.preheader_crit_edge ], [ %n.vec.i, %vec.epilog.iter.check.i ], [ %n.vec11.i, %vec.epilog.middle.block.i ]
   br label %B40.i
 
-B40.i:                                            ; preds = %B40.i, %B40.i.preheader
+B40.i:
   %good.2.043.i = phi i1 [ %.136.i, %B40.i ], [ %good.2.043.i.ph, %B40.i.preheader ]
   %.983941.i = phi i64 [ %.105.i, %B40.i ], [ %.983941.i.ph, %B40.i.preheader ]
   %.105.i = add nuw nsw i64 %.983941.i, 1
-  %22 = shl i64 %.983941.i, 3
-  %scevgep.i = getelementptr i8, ptr %.pre-phi, i64 %22
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !186
-  %23 = call i1 @llvm.is.fpclass.f64(double %.132.i, i32 504)
-  %.136.i = and i1 %good.2.043.i, %23
+  %25 = shl i64 %.983941.i, 3
+  %scevgep.i = getelementptr i8, ptr %.pre-phi, i64 %25
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !225
+  %26 = tail call double @llvm.fabs.f64(double %.132.i)
+  %27 = fcmp one double %26, 0x7FF0000000000000
+  %.136.i = and i1 %good.2.043.i, %27
   %exitcond.not.i = icmp eq i64 %.24, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !191
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !230
 
-_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit: ; preds = %B40.i, %vec.epilog.middle.block.i, %middle.block.i
-  %.136.lcssa.i = phi i1 [ %21, %vec.epilog.middle.block.i ], [ %12, %middle.block.i ], [ %.136.i, %B40.i ]
+_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
+  %.136.lcssa.i = phi i1 [ %24, %vec.epilog.middle.block.i ], [ %15, %middle.block.i ], [ %.136.i, %B40.i ]
   br i1 %.136.lcssa.i, label %B100, label %B70.endif
 
-B100:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, %B0
-  %24 = inttoptr i64 %.20 to ptr
+B100:
+  %28 = inttoptr i64 %.20 to ptr
   %.101 = getelementptr i8, ptr %arg.r, i64 544
   %.102 = load i64, ptr %.101, align 8
   %.103 = inttoptr i64 %.102 to ptr
-  %.111 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.107, ptr nonnull %excinfo.3, ptr %24, ptr %.103, i64 %.24)
+  %.111 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.107, ptr nonnull %excinfo.3, ptr %28, ptr %.103, i64 %.24)
   switch i32 %.111, label %B100.if.if [
     i32 -2, label %B100.endif
     i32 0, label %B100.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B308.endif, %B100.if.if, %B70.endif, %B200
+common.ret:
   %common.ret.op = phi i32 [ 0, %B200 ], [ %.111, %B100.if.if ], [ 0, %B70.endif ], [ 0, %B308.endif ]
   ret i32 %common.ret.op
 
-B200:                                             ; preds = %B100.endif
+B200:
   store i64 %arg.code, ptr %retptr, align 8
   br label %common.ret
 
-B204:                                             ; preds = %B100.endif
+B204:
   %.153 = getelementptr i8, ptr %arg.r, i64 384
   %.154 = load i64, ptr %.153, align 8
   %.155 = icmp sgt i64 %.154, 0
   br i1 %.155, label %B308, label %B308.thread
 
-B308.thread:                                      ; preds = %B204
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 544
-  %.1974 = load i64, ptr %sunkaddr, align 8
+B308.thread:
+  %.1974 = load i64, ptr %.101, align 8
   %.1985 = inttoptr i64 %.1974 to ptr
   %.2006 = getelementptr i8, ptr %arg.r, i64 552
   %.2017 = load i64, ptr %.2006, align 8
   %.2028 = inttoptr i64 %.2017 to ptr
   br label %B26.i
 
-B308:                                             ; preds = %B204
-  %.15.i = tail call double @nextafter(double %.13, double 0xFFF0000000000000), !noalias !192
-  %sunkaddr32 = getelementptr i8, ptr %arg.r, i64 544
-  %.185 = load i64, ptr %sunkaddr32, align 8
+B308:
+  %.15.i = tail call double @nextafter(double %.13, double 0xFFF0000000000000), !noalias !231
+  %.185 = load i64, ptr %.101, align 8
   %.186 = inttoptr i64 %.185 to ptr
   %.188 = getelementptr i8, ptr %arg.r, i64 552
   %.189 = load i64, ptr %.188, align 8
   %.190 = inttoptr i64 %.189 to ptr
-  %.192 = tail call ptr @flow(ptr nonnull %arg.r, double %.15.i, ptr %.186, ptr %.190)
-  %sunkaddr33 = getelementptr i8, ptr %arg.r, i64 384
-  %.18.i.pr = load i64, ptr %sunkaddr33, align 8, !noalias !195
-  %.197 = load i64, ptr %sunkaddr32, align 8
+  %.10.i1 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.15.i, ptr readonly %.186, ptr %.190) #0
+  %cond.i = icmp eq i32 %.10.i1, 0
+  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit:
+  %.18.i.pr = load i64, ptr %.153, align 8, !noalias !234
+  %.197 = load i64, ptr %.101, align 8
   %.198 = inttoptr i64 %.197 to ptr
   %.201 = load i64, ptr %.188, align 8
   %.202 = inttoptr i64 %.201 to ptr
   %.19.i = icmp sgt i64 %.18.i.pr, 0
   br i1 %.19.i, label %B48.i, label %B26.i
 
-B26.i:                                            ; preds = %B308, %B308.thread
-  %.20212 = phi ptr [ %.2028, %B308.thread ], [ %.202, %B308 ]
-  %.19810 = phi ptr [ %.1985, %B308.thread ], [ %.198, %B308 ]
+B26.i:
+  %.20212 = phi ptr [ %.2028, %B308.thread ], [ %.202, %flow.exit ]
+  %.19810 = phi ptr [ %.1985, %B308.thread ], [ %.198, %flow.exit ]
   %.22.i = getelementptr i8, ptr %arg.r, i64 64
-  %.23.i = load i64, ptr %.22.i, align 8, !noalias !195
+  %.23.i = load i64, ptr %.22.i, align 8, !noalias !234
   %.24.not.i = icmp eq i64 %.23.i, 0
   br i1 %.24.not.i, label %B308.endif, label %B48.i
 
-B48.i:                                            ; preds = %B26.i, %B308
-  %.20213 = phi ptr [ %.20212, %B26.i ], [ %.202, %B308 ]
-  %.19811 = phi ptr [ %.19810, %B26.i ], [ %.198, %B308 ]
-  %.30.i = tail call ptr @node(ptr nonnull %arg.r, double %.13, ptr %.19811, ptr %.20213), !noalias !195
+B48.i:
+  %.20213 = phi ptr [ %.20212, %B26.i ], [ %.202, %flow.exit ]
+  %.19811 = phi ptr [ %.19810, %B26.i ], [ %.198, %flow.exit ]
+  store ptr null, ptr %.6.i2, align 8, !noalias !234
+  %.10.i4 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %.13, ptr readonly %.19811, ptr readonly %.20213) #0, !noalias !234
+  %cond.i5 = icmp eq i32 %.10.i4, 0
+  br i1 %cond.i5, label %node.exit, label %entry.if.i6, !prof !24
+
+entry.if.i6:
+  tail call void @llvm.trap(), !noalias !234
+  unreachable
+
+node.exit:
   br label %B308.endif
 
-B70.endif:                                        ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit
+B70.endif:
   %.8.i = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !198
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !237
   %.10.i = icmp eq i64 %.9.i, 0
   %spec.select.i = select i1 %.10.i, i64 4, i64 %.9.i
   store i64 %spec.select.i, ptr %retptr, align 8
   br label %common.ret
 
-B100.endif:                                       ; preds = %B100, %B100
+B100.endif:
   %.133 = getelementptr i8, ptr %arg.r, i64 328
   store double %.13, ptr %.133, align 8
   %.137 = getelementptr i8, ptr %arg.r, i64 360
@@ -8060,57 +7288,86 @@ B100.endif:                                       ; preds = %B100, %B100
   %.141 = fcmp oeq double %.13, %.139
   br i1 %.141, label %B200, label %B204
 
-B100.if.if:                                       ; preds = %B100
+B100.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B308.endif:                                       ; preds = %B48.i, %B26.i
+B308.endif:
   store i64 %arg.code, ptr %retptr, align 8
   br label %common.ret
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels5nodesB3v67B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t0, double %arg.t1) local_unnamed_addr {
 B0:
+  %.6.i9 = alloca ptr, align 8
+  %excinfo.i10 = alloca ptr, align 8
+  %.6.i3 = alloca ptr, align 8
+  %excinfo.i4 = alloca ptr, align 8
+  %.6.i1 = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
+  %.5.i = alloca ptr, align 8
   %.14 = getelementptr i8, ptr %arg.r, i64 384
   %.15 = load i64, ptr %.14, align 8
   %.16 = icmp eq i64 %.15, 1
   br i1 %.16, label %B60.endif, label %common.ret
 
-B96:                                              ; preds = %B96.lr.ph, %B96
-  %.1464648 = phi i64 [ 1, %B96.lr.ph ], [ %.153, %B96 ]
+B96:
+  %.1464648 = phi i64 [ 1, %B96.lr.ph ], [ %.153, %node.exit ]
   %.153 = add nuw nsw i64 %.1464648, 1
   %.181 = uitofp nneg i64 %.1464648 to double
   %.182 = fmul double %.6.i, %.181
   %.188 = fdiv double %.182, %.184
   %.190 = fadd double %arg.t0, %.188
-  %.193 = tail call ptr @retake(ptr nonnull %arg.r, double %arg.t0, double %.190)
-  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 616
+  %.9.i = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull poison, ptr nonnull %arg.r, double %arg.t0, double %.190) #0
   %.196 = load i64, ptr %sunkaddr2, align 8
   %.197 = inttoptr i64 %.196 to ptr
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 624
   %.200 = load i64, ptr %sunkaddr3, align 8
   %.201 = inttoptr i64 %.200 to ptr
-  %.203 = tail call ptr @flow(ptr nonnull %arg.r, double %.190, ptr %.197, ptr %.201)
+  %.10.i2 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i1, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.190, ptr readonly %.197, ptr %.201) #0
+  %cond.i = icmp eq i32 %.10.i2, 0
+  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+flow.exit:
   %.206 = load i64, ptr %sunkaddr2, align 8
   %.207 = inttoptr i64 %.206 to ptr
   %.210 = load i64, ptr %sunkaddr3, align 8
   %.211 = inttoptr i64 %.210 to ptr
-  %.213 = tail call ptr @node(ptr nonnull %arg.r, double %.190, ptr %.207, ptr %.211)
-  %exitcond.not = icmp eq i64 %.13.i, %.153
+  %.10.i5 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i3, ptr nonnull %excinfo.i4, ptr nonnull %arg.r, double %.190, ptr readonly %.207, ptr readonly %.211) #0
+  %cond.i6 = icmp eq i32 %.10.i5, 0
+  br i1 %cond.i6, label %node.exit, label %entry.if.i7, !prof !24
+
+entry.if.i7:
+  tail call void @llvm.trap()
+  unreachable
+
+node.exit:
+  %exitcond.not = icmp eq i64 %.153, %.13.i
   br i1 %exitcond.not, label %common.ret, label %B96
 
-common.ret:                                       ; preds = %B60.endif, %B96, %B0
+common.ret:
   %.224 = getelementptr i8, ptr %arg.r, i64 560
   %.225 = load i64, ptr %.224, align 8
   %.226 = inttoptr i64 %.225 to ptr
   %.228 = getelementptr i8, ptr %arg.r, i64 568
   %.229 = load i64, ptr %.228, align 8
   %.230 = inttoptr i64 %.229 to ptr
-  %.233 = tail call ptr @node(ptr nonnull %arg.r, double %arg.t1, ptr %.226, ptr %.230)
+  %.10.i11 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i9, ptr nonnull %excinfo.i10, ptr nonnull %arg.r, double %arg.t1, ptr readonly %.226, ptr readonly %.230) #0
+  %cond.i12 = icmp eq i32 %.10.i11, 0
+  br i1 %cond.i12, label %node.exit15, label %entry.if.i13, !prof !24
+
+entry.if.i13:
+  tail call void @llvm.trap()
+  unreachable
+
+node.exit15:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
-B60.endif:                                        ; preds = %B0
+B60.endif:
   %.6.i = fsub double %arg.t1, %arg.t0
   %.10.i = fdiv double %.6.i, 2.000000e-03
   %.11.i = fadd double %.10.i, -1.000000e-09
@@ -8119,13 +7376,15 @@ B60.endif:                                        ; preds = %B0
   %.14047.not = icmp slt i64 %.13.i, 2
   br i1 %.14047.not, label %common.ret, label %B96.lr.ph
 
-B96.lr.ph:                                        ; preds = %B60.endif
+B96.lr.ph:
   %.184 = uitofp nneg i64 %.13.i to double
+  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 616
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 624
   br label %B96
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels7pass_onB3v68B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r) local_unnamed_addr #7 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels7pass_onB3v68B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r) local_unnamed_addr #0 {
 B0:
   %.19 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
@@ -8147,9 +7406,9 @@ B0:
   switch i32 %.23, label %common.ret [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-B164:                                             ; preds = %B0.endif.endif
+B164:
   %.88 = getelementptr i8, ptr %arg.r, i64 656
   %.89 = load i64, ptr %.88, align 8
   %.90 = inttoptr i64 %.89 to ptr
@@ -8162,36 +7421,35 @@ B164:                                             ; preds = %B0.endif.endif
   switch i32 %.102, label %common.ret [
     i32 -2, label %B164.endif
     i32 0, label %B164.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B164.endif.if.if, %B164.endif, %B164.endif, %B0.endif.endif, %B0.endif, %B164, %B0
+common.ret:
   %excinfo.sink = phi ptr [ %excinfo, %B164.endif.if.if ], [ %excinfo, %B164 ], [ %excinfo, %B0.endif ], [ %excinfo, %B0 ], [ %retptr, %B0.endif.endif ], [ %retptr, %B164.endif ], [ %retptr, %B164.endif ]
   %common.ret.op = phi i32 [ %.140, %B164.endif.if.if ], [ %.102, %B164 ], [ %.61, %B0.endif ], [ %.23, %B0 ], [ 0, %B0.endif.endif ], [ 0, %B164.endif ], [ 0, %B164.endif ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.47 = getelementptr i8, ptr %arg.r, i64 568
   %.48 = load i64, ptr %.47, align 8
   %.49 = inttoptr i64 %.48 to ptr
   %.51 = getelementptr i8, ptr %arg.r, i64 552
   %.52 = load i64, ptr %.51, align 8
   %.53 = inttoptr i64 %.52 to ptr
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 96
-  %.56 = load i64, ptr %sunkaddr, align 8
+  %.56 = load i64, ptr %.17, align 8
   %.61 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.57, ptr nonnull %excinfo.2, ptr %.49, ptr %.53, i64 %.56)
   switch i32 %.61, label %common.ret [
     i32 -2, label %B0.endif.endif
     i32 0, label %B0.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif.endif:                                   ; preds = %B0.endif, %B0.endif
+B0.endif.endif:
   %.82 = getelementptr i8, ptr %arg.r, i64 144
   %.83 = load i64, ptr %.82, align 8
   %.84 = icmp eq i64 %.83, 1
   br i1 %.84, label %B164, label %common.ret
 
-B164.endif:                                       ; preds = %B164, %B164
+B164.endif:
   %.124 = getelementptr i8, ptr %arg.r, i64 712
   %.125 = load i64, ptr %.124, align 8
   %.126 = inttoptr i64 %.125 to ptr
@@ -8204,101 +7462,42 @@ B164.endif:                                       ; preds = %B164, %B164
   switch i32 %.140, label %B164.endif.if.if [
     i32 -2, label %common.ret
     i32 0, label %common.ret
-  ], !prof !9
+  ], !prof !8
 
-B164.endif.if.if:                                 ; preds = %B164.endif
+B164.endif.if.if:
   br label %common.ret
 }
 
-define i64 @through(ptr initializes((440, 448)) %.1, double %.2) local_unnamed_addr {
+
+define i64 @through(ptr initializes((440, 448)) %.1, double %.2) local_unnamed_addr #0 {
 entry:
   %.4 = alloca i64, align 8
   store i64 0, ptr %.4, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.8 = call i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr nonnull %.4, ptr nonnull %excinfo, ptr %.1, double %.2) #9
-  %.9 = load ptr, ptr %excinfo, align 8
-  %.18 = load i64, ptr %.4, align 8
-  %.20 = alloca i32, align 4
-  store i32 0, ptr %.20, align 4
+  %.8 = call i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr nonnull %.4, ptr nonnull %excinfo, ptr %.1, double %.2) #0
   %cond = icmp eq i32 %.8, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.16 = icmp sgt i32 %.8, 0
-  call void @numba_gil_ensure(ptr nonnull %.20)
-  br i1 %.16, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.23, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.18, %.23 ], [ %.18, %entry ]
-  ret i64 %common.ret.op
-
-.23:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.71 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.41")
-  call void @PyErr_WriteUnraisable(ptr %.71)
-  call void @Py_DecRef(ptr %.71)
-  call void @numba_gil_release(ptr nonnull %.20)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.26 = load { ptr, i32, ptr, ptr, i32 }, ptr %.9, align 8
-  %.27 = extractvalue { ptr, i32, ptr, ptr, i32 } %.26, 4
-  %.28 = icmp sgt i32 %.27, 0
-  %.31 = extractvalue { ptr, i32, ptr, ptr, i32 } %.26, 0
-  %.33 = extractvalue { ptr, i32, ptr, ptr, i32 } %.26, 1
-  br i1 %.28, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.8, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.23
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.34 = sext i32 %.33 to i64
-  %.35 = call ptr @PyBytes_FromStringAndSize(ptr %.31, i64 %.34)
-  %.36 = load { ptr, i32, ptr, ptr, i32 }, ptr %.9, align 8
-  %.37 = extractvalue { ptr, i32, ptr, ptr, i32 } %.36, 2
-  %.39 = extractvalue { ptr, i32, ptr, ptr, i32 } %.36, 3
-  %.41 = call ptr %.39(ptr %.37)
-  %.42 = icmp eq ptr %.41, null
-  br i1 %.42, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.55 = extractvalue { ptr, i32, ptr, ptr, i32 } %.26, 2
-  %.56 = call ptr @numba_unpickle(ptr %.31, i32 %.33, ptr %.55)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.58 = phi ptr [ %.46, %entry.if.if.if.endif ], [ %.56, %entry.if.if.else ]
-  %.59.not = icmp eq ptr %.58, null
-  br i1 %.59.not, label %.23, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.42")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.46 = call ptr @numba_runtime_build_excinfo_struct(ptr %.35, ptr nonnull %.41)
-  call void @NRT_Free(ptr nonnull %.9)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.58)
-  br label %.23
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.23
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.43")
-  br label %.23
+common.ret:
+  %.18 = load i64, ptr %.4, align 8
+  ret i64 %.18
 }
 
-define i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((424, 440)) %arg.r) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((424, 440)) %arg.r) local_unnamed_addr #0 {
 B0:
+  %.6.i = alloca ptr, align 8
+  %excinfo.i9 = alloca ptr, align 8
+  %.4.i = alloca i64, align 8
+  %excinfo.i4 = alloca ptr, align 8
+  %.3.i = alloca i64, align 8
+  %excinfo.i = alloca ptr, align 8
+  %.36.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
   %.33.i = alloca double, align 8
   %excinfo.1.i = alloca ptr, align 8
   %.18 = alloca ptr, align 8
@@ -8311,94 +7510,148 @@ B0:
   switch i32 %.22, label %B0.if.if [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-B86:                                              ; preds = %B0.endif
+B86:
   %.8.i = getelementptr i8, ptr %arg.r, i64 328
-  %.10.i = load double, ptr %.8.i, align 8, !noalias !201
+  %.10.i = load double, ptr %.8.i, align 8, !noalias !240
   %.12.i = getelementptr i8, ptr %arg.r, i64 360
-  store double %.10.i, ptr %.12.i, align 8, !noalias !201
+  store double %.10.i, ptr %.12.i, align 8, !noalias !240
   %.20.i = getelementptr i8, ptr %arg.r, i64 544
-  %.21.i = load i64, ptr %.20.i, align 8, !noalias !201
+  %.21.i = load i64, ptr %.20.i, align 8, !noalias !240
   %.22.i = inttoptr i64 %.21.i to ptr
   %.24.i = getelementptr i8, ptr %arg.r, i64 520
-  %.25.i = load i64, ptr %.24.i, align 8, !noalias !201
+  %.25.i = load i64, ptr %.24.i, align 8, !noalias !240
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !243
+  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
+  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !243
+  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  store double %.10.i, ptr %.16.i.i, align 8, !noalias !243
+  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
+  %.21.i.i = inttoptr i64 %.20.i.i to ptr
+  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
+  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !243
+  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
+  %.26.i.i = inttoptr i64 %.25.i.i to ptr
+  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
+  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !243
+  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
+  %.32.i.i = inttoptr i64 %.31.i.i to ptr
+  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
+  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
+  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !243
+  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.22.i, ptr %.33.i.i, i64 %.35.i.i), !noalias !243
+  switch i32 %.40.i.i, label %entry.if.i [
+    i32 -2, label %watch.exit
+    i32 0, label %watch.exit
+  ], !prof !8
+
+entry.if.i:
+  call void @llvm.trap(), !noalias !240
+  unreachable
+
+watch.exit:
   %.26.i = inttoptr i64 %.25.i to ptr
-  %.28.i = tail call ptr @watch(ptr nonnull %arg.r, double %.10.i, ptr %.22.i, ptr %.26.i), !noalias !201
+  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !243
+  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
+  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !243
+  %.66.i.i = inttoptr i64 %.65.i.i to ptr
+  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
+  %.69.i.i = inttoptr i64 %.68.i.i to ptr
+  %.70.i.i = inttoptr i64 %.63.i.i to ptr
+  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.26.i) #0, !noalias !243
   %.30.i = getelementptr i8, ptr %arg.r, i64 368
-  %.31.i = load i64, ptr %.30.i, align 8, !noalias !201
+  %.31.i = load i64, ptr %.30.i, align 8, !noalias !240
   %.32.i = icmp sgt i64 %.31.i, -1
   br i1 %.32.i, label %B116.i, label %_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
 
-B116.i:                                           ; preds = %B86
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 520
-  %.36.i = load i64, ptr %sunkaddr, align 8, !noalias !201
+B116.i:
+  %.36.i = load i64, ptr %.24.i, align 8, !noalias !240
   %.37.i = inttoptr i64 %.36.i to ptr
   %.41.i = getelementptr double, ptr %.37.i, i64 %.31.i
-  store double 0.000000e+00, ptr %.41.i, align 8, !noalias !201
+  store double 0.000000e+00, ptr %.41.i, align 8, !noalias !240
   br label %_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
 
-_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit: ; preds = %B116.i, %B86
-  %sunkaddr29 = getelementptr i8, ptr %arg.r, i64 376
-  store i64 1, ptr %sunkaddr29, align 8, !noalias !201
+_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit:
+  store i64 1, ptr %.45, align 8, !noalias !240
   br label %B116
 
-B116:                                             ; preds = %B0.endif, %_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
-  store ptr null, ptr %excinfo.1.i, align 8, !noalias !204
+B116:
+  store ptr null, ptr %excinfo.1.i, align 8, !noalias !247
   %.8.i1 = getelementptr i8, ptr %arg.r, i64 328
-  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !204
+  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !247
   %.12.i3 = getelementptr i8, ptr %arg.r, i64 352
-  %.14.i = load double, ptr %.12.i3, align 8, !noalias !204
+  %.14.i = load double, ptr %.12.i3, align 8, !noalias !247
   %.15.i = fcmp olt double %.10.i2, %.14.i
-  br i1 %.15.i, label %B36.preheader.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
+  br i1 %.15.i, label %B36.i.preheader, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
-B36.preheader.i:                                  ; preds = %B116
+B36.i.preheader:
+  %sunkaddr30 = getelementptr i8, ptr %arg.r, i64 440
   br label %B36.i
 
-B36.i:                                            ; preds = %B186.i, %B36.preheader.i
-  %sunkaddr30 = getelementptr i8, ptr %arg.r, i64 440
-  store double 0x7FF0000000000000, ptr %sunkaddr30, align 8, !noalias !204
-  %.25.i4 = tail call i64 @due(ptr nonnull %arg.r), !noalias !204
-  %.29.i = icmp eq i64 %.25.i4, 0
+B36.i:
+  store double 0x7FF0000000000000, ptr %sunkaddr30, align 8, !noalias !247
+  store i64 0, ptr %.3.i, align 8, !noalias !247
+  %.7.i = call i32 @_ZN18biped_adrc_kernels3dueB3v13B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r) #0, !noalias !247
+  %cond.i1 = icmp eq i32 %.7.i, 0
+  br i1 %cond.i1, label %due.exit, label %entry.if.i2, !prof !24
+
+entry.if.i2:
+  tail call void @llvm.trap(), !noalias !247
+  unreachable
+
+due.exit:
+  %.17.i3 = load i64, ptr %.3.i, align 8, !noalias !247
+  %.29.i = icmp eq i64 %.17.i3, 0
   br i1 %.29.i, label %B112.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
-B112.i:                                           ; preds = %B36.i
-  store double 0.000000e+00, ptr %.33.i, align 8, !noalias !204
-  %.37.i5 = call i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.33.i, ptr nonnull %excinfo.1.i, ptr nonnull %arg.r), !noalias !204
+B112.i:
+  store double 0.000000e+00, ptr %.33.i, align 8, !noalias !247
+  %.37.i5 = call i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.33.i, ptr nonnull %excinfo.1.i, ptr nonnull %arg.r), !noalias !247
   %cond.i = icmp eq i32 %.37.i5, 0
-  br i1 %cond.i, label %B170.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, !prof !8
+  br i1 %cond.i, label %B170.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, !prof !24
 
-B170.i:                                           ; preds = %B112.i
-  %.47.i = load double, ptr %.33.i, align 8, !noalias !204
-  %.60.i = tail call i64 @through(ptr nonnull %arg.r, double %.47.i), !noalias !204
-  %.65.not.i = icmp eq i64 %.60.i, 0
+B170.i:
+  %.47.i = load double, ptr %.33.i, align 8, !noalias !247
+  store i64 0, ptr %.4.i, align 8, !noalias !247
+  %.8.i5 = call i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr nonnull %.4.i, ptr nonnull %excinfo.i4, ptr nonnull %arg.r, double %.47.i) #0, !noalias !247
+  %cond.i6 = icmp eq i32 %.8.i5, 0
+  br i1 %cond.i6, label %through.exit, label %entry.if.i7, !prof !24
+
+entry.if.i7:
+  tail call void @llvm.trap(), !noalias !247
+  unreachable
+
+through.exit:
+  %.18.i8 = load i64, ptr %.4.i, align 8, !noalias !247
+  %.65.not.i = icmp eq i64 %.18.i8, 0
   br i1 %.65.not.i, label %B186.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
-B186.i:                                           ; preds = %B170.i
-  %sunkaddr31 = getelementptr i8, ptr %arg.r, i64 328
-  %.79.i = load double, ptr %sunkaddr31, align 8, !noalias !204
-  %sunkaddr32 = getelementptr i8, ptr %arg.r, i64 352
-  %.83.i = load double, ptr %sunkaddr32, align 8, !noalias !204
+B186.i:
+  %.79.i = load double, ptr %.8.i1, align 8, !noalias !247
+  %.83.i = load double, ptr %.12.i3, align 8, !noalias !247
   %.84.i = fcmp olt double %.79.i, %.83.i
   br i1 %.84.i, label %B36.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
-_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread: ; preds = %B186.i, %B170.i, %B36.i, %B116
-  %.78.0.ph = phi i64 [ 0, %B116 ], [ 0, %B186.i ], [ %.60.i, %B170.i ], [ %.25.i4, %B36.i ]
-  %sunkaddr33 = getelementptr i8, ptr %arg.r, i64 392
-  %.107 = load i64, ptr %sunkaddr33, align 8
+_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread:
+  %.78.0.ph = phi i64 [ 0, %B116 ], [ %.17.i3, %due.exit ], [ %.18.i8, %through.exit ], [ 0, %B186.i ]
+  %.107 = load i64, ptr %.8, align 8
   %.109 = icmp eq i64 %.107, %.9
   br i1 %.109, label %B168.endif, label %B300
 
-_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit: ; preds = %B112.i
-  %.38.i = load ptr, ptr %excinfo.1.i, align 8, !noalias !204
+_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit:
+  %.38.i = load ptr, ptr %excinfo.1.i, align 8, !noalias !247
   %.90 = icmp sgt i32 %.37.i5, 0
   %.91 = select i1 %.90, ptr %.38.i, ptr undef
   store ptr %.91, ptr %excinfo, align 8
   br label %common.ret
 
-B210:                                             ; preds = %B210.lr.ph.new, %B210
+B210:
   %.2014749 = phi i64 [ 0, %B210.lr.ph.new ], [ %.208.7, %B210 ]
-  %sunkaddr34 = getelementptr i8, ptr %arg.r, i64 552
   %.235 = load i64, ptr %sunkaddr34, align 8
   %.236 = inttoptr i64 %.235 to ptr
   %0 = shl i64 %.2014749, 3
@@ -8407,131 +7660,132 @@ B210:                                             ; preds = %B210.lr.ph.new, %B2
   %.235.1 = load i64, ptr %sunkaddr34, align 8
   %.236.1 = inttoptr i64 %.235.1 to ptr
   %scevgep26 = getelementptr i8, ptr %.236.1, i64 8
-  %1 = shl i64 %.2014749, 3
-  %scevgep27 = getelementptr i8, ptr %scevgep26, i64 %1
+  %scevgep27 = getelementptr i8, ptr %scevgep26, i64 %0
   store double 0.000000e+00, ptr %scevgep27, align 8
   %.235.2 = load i64, ptr %sunkaddr34, align 8
   %.236.2 = inttoptr i64 %.235.2 to ptr
   %scevgep24 = getelementptr i8, ptr %.236.2, i64 16
-  %2 = shl i64 %.2014749, 3
-  %scevgep25 = getelementptr i8, ptr %scevgep24, i64 %2
+  %scevgep25 = getelementptr i8, ptr %scevgep24, i64 %0
   store double 0.000000e+00, ptr %scevgep25, align 8
   %.235.3 = load i64, ptr %sunkaddr34, align 8
   %.236.3 = inttoptr i64 %.235.3 to ptr
   %scevgep22 = getelementptr i8, ptr %.236.3, i64 24
-  %3 = shl i64 %.2014749, 3
-  %scevgep23 = getelementptr i8, ptr %scevgep22, i64 %3
+  %scevgep23 = getelementptr i8, ptr %scevgep22, i64 %0
   store double 0.000000e+00, ptr %scevgep23, align 8
   %.235.4 = load i64, ptr %sunkaddr34, align 8
   %.236.4 = inttoptr i64 %.235.4 to ptr
   %scevgep20 = getelementptr i8, ptr %.236.4, i64 32
-  %4 = shl i64 %.2014749, 3
-  %scevgep21 = getelementptr i8, ptr %scevgep20, i64 %4
+  %scevgep21 = getelementptr i8, ptr %scevgep20, i64 %0
   store double 0.000000e+00, ptr %scevgep21, align 8
   %.235.5 = load i64, ptr %sunkaddr34, align 8
   %.236.5 = inttoptr i64 %.235.5 to ptr
   %scevgep18 = getelementptr i8, ptr %.236.5, i64 40
-  %5 = shl i64 %.2014749, 3
-  %scevgep19 = getelementptr i8, ptr %scevgep18, i64 %5
+  %scevgep19 = getelementptr i8, ptr %scevgep18, i64 %0
   store double 0.000000e+00, ptr %scevgep19, align 8
   %.235.6 = load i64, ptr %sunkaddr34, align 8
   %.236.6 = inttoptr i64 %.235.6 to ptr
   %scevgep16 = getelementptr i8, ptr %.236.6, i64 48
-  %6 = shl i64 %.2014749, 3
-  %scevgep17 = getelementptr i8, ptr %scevgep16, i64 %6
+  %scevgep17 = getelementptr i8, ptr %scevgep16, i64 %0
   store double 0.000000e+00, ptr %scevgep17, align 8
   %.208.7 = add nuw nsw i64 %.2014749, 8
   %.235.7 = load i64, ptr %sunkaddr34, align 8
   %.236.7 = inttoptr i64 %.235.7 to ptr
   %scevgep14 = getelementptr i8, ptr %.236.7, i64 56
-  %7 = shl i64 %.2014749, 3
-  %scevgep15 = getelementptr i8, ptr %scevgep14, i64 %7
+  %scevgep15 = getelementptr i8, ptr %scevgep14, i64 %0
   store double 0.000000e+00, ptr %scevgep15, align 8
   %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.208.7
   br i1 %niter.ncmp.7, label %B234.loopexit.unr-lcssa, label %B210
 
-B234.loopexit.unr-lcssa:                          ; preds = %B210
+B234.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B234, label %B210.epil.preheader
 
-B210.epil.preheader:                              ; preds = %B210.lr.ph, %B234.loopexit.unr-lcssa
-  %.2014749.epil.init = phi i64 [ 0, %B210.lr.ph ], [ %.208.7, %B234.loopexit.unr-lcssa ]
+B210.epil.preheader:
+  %.2014749.epil.init = phi i64 [ 0, %B210.lr.ph ], [ %unroll_iter, %B234.loopexit.unr-lcssa ]
+  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 552
   br label %B210.epil
 
-B210.epil:                                        ; preds = %B210.epil, %B210.epil.preheader
+B210.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B210.epil ], [ %xtraiter, %B210.epil.preheader ]
-  %.2014749.epil = phi i64 [ %.2014749.epil.init, %B210.epil.preheader ], [ %.208.epil, %B210.epil ]
+  %.2014749.epil = phi i64 [ %.208.epil, %B210.epil ], [ %.2014749.epil.init, %B210.epil.preheader ]
   %.208.epil = add nuw nsw i64 %.2014749.epil, 1
-  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 552
   %.235.epil = load i64, ptr %sunkaddr35, align 8
   %.236.epil = inttoptr i64 %.235.epil to ptr
-  %8 = shl i64 %.2014749.epil, 3
-  %scevgep = getelementptr i8, ptr %.236.epil, i64 %8
+  %1 = shl i64 %.2014749.epil, 3
+  %scevgep = getelementptr i8, ptr %.236.epil, i64 %1
   store double 0.000000e+00, ptr %scevgep, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B234, label %B210.epil, !llvm.loop !208
+  br i1 %epil.iter.cmp.not, label %B234, label %B210.epil, !llvm.loop !251
 
-B234:                                             ; preds = %B168.endif, %B210.epil, %B234.loopexit.unr-lcssa
-  %sunkaddr36 = getelementptr i8, ptr %arg.r, i64 328
-  %.248 = load double, ptr %sunkaddr36, align 8
+B234:
+  %.248 = load double, ptr %.8.i1, align 8
   %.250 = getelementptr i8, ptr %arg.r, i64 544
   %.251 = load i64, ptr %.250, align 8
   %.254 = getelementptr i8, ptr %arg.r, i64 552
   %.255 = load i64, ptr %.254, align 8
   %.17.i = getelementptr i8, ptr %arg.r, i64 384
-  %.18.i = load i64, ptr %.17.i, align 8, !noalias !209
+  %.18.i = load i64, ptr %.17.i, align 8, !noalias !252
   %.19.i = icmp sgt i64 %.18.i, 0
   br i1 %.19.i, label %B48.i, label %B26.i
 
-B26.i:                                            ; preds = %B234
+B26.i:
   %.22.i7 = getelementptr i8, ptr %arg.r, i64 64
-  %.23.i = load i64, ptr %.22.i7, align 8, !noalias !209
+  %.23.i = load i64, ptr %.22.i7, align 8, !noalias !252
   %.24.not.i = icmp eq i64 %.23.i, 0
   br i1 %.24.not.i, label %B300, label %B48.i
 
-B48.i:                                            ; preds = %B26.i, %B234
-  %9 = inttoptr i64 %.255 to ptr
-  %10 = inttoptr i64 %.251 to ptr
-  %.30.i8 = tail call ptr @node(ptr nonnull %arg.r, double %.248, ptr %10, ptr %9), !noalias !209
+B48.i:
+  %2 = inttoptr i64 %.255 to ptr
+  %3 = inttoptr i64 %.251 to ptr
+  %.10.i10 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %.248, ptr readonly %3, ptr readonly %2) #0, !noalias !252
+  %cond.i11 = icmp eq i32 %.10.i10, 0
+  br i1 %cond.i11, label %node.exit, label %entry.if.i12, !prof !24
+
+entry.if.i12:
+  tail call void @llvm.trap(), !noalias !252
+  unreachable
+
+node.exit:
   br label %B300
 
-common.ret:                                       ; preds = %B0.if.if, %B300, %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
+common.ret:
   %common.ret.op = phi i32 [ 0, %B300 ], [ %.22, %B0.if.if ], [ %.37.i5, %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
   ret i32 %common.ret.op
 
-B300:                                             ; preds = %B48.i, %B26.i, %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
+B300:
   store i64 %.78.0.ph, ptr %retptr, align 8
   br label %common.ret
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.45 = getelementptr i8, ptr %arg.r, i64 376
   %.46 = load i64, ptr %.45, align 8
   %.47 = icmp eq i64 %.46, 0
   br i1 %.47, label %B86, label %B116
 
-B0.if.if:                                         ; preds = %B0
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B168.endif:                                       ; preds = %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
+B168.endif:
   %.114 = getelementptr i8, ptr %arg.r, i64 80
   %.115 = load i64, ptr %.114, align 8
   %.19548.not = icmp slt i64 %.115, 1
   br i1 %.19548.not, label %B234, label %B210.lr.ph
 
-B210.lr.ph:                                       ; preds = %B168.endif
+B210.lr.ph:
   %xtraiter = and i64 %.115, 7
-  %11 = icmp ult i64 %.115, 8
-  br i1 %11, label %B210.epil.preheader, label %B210.lr.ph.new
+  %4 = icmp samesign ult i64 %.115, 8
+  br i1 %4, label %B210.epil.preheader, label %B210.lr.ph.new
 
-B210.lr.ph.new:                                   ; preds = %B210.lr.ph
+B210.lr.ph.new:
   %unroll_iter = and i64 %.115, 9223372036854775800
+  %sunkaddr34 = getelementptr i8, ptr %arg.r, i64 552
   br label %B210
 }
 
-; Function Attrs: nofree norecurse nosync nounwind memory(read, argmem: readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr initializes((432, 440)) %arg.r) local_unnamed_addr #5 {
+
+define linkonce_odr i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr initializes((432, 440)) %arg.r) local_unnamed_addr #0 {
 B0.endif:
   %.8 = getelementptr i8, ptr %arg.r, i64 432
   store double 0.000000e+00, ptr %.8, align 8
@@ -8540,22 +7794,22 @@ B0.endif:
   %.9544.not = icmp slt i64 %.13, 1
   br i1 %.9544.not, label %B180, label %B60.lr.ph
 
-B60.lr.ph:                                        ; preds = %B0.endif
+B60.lr.ph:
   %.137 = getelementptr i8, ptr %arg.r, i64 264
   %.138 = load i64, ptr %.137, align 8
   %.145 = getelementptr i8, ptr %arg.r, i64 336
   %.147 = load double, ptr %.145, align 8
   %xtraiter = and i64 %.13, 7
   %0 = icmp samesign ult i64 %.13, 8
+  %.pre = inttoptr i64 %.138 to ptr
   br i1 %0, label %B60.epil.preheader, label %B60.lr.ph.new
 
-B60.lr.ph.new:                                    ; preds = %B60.lr.ph
-  %1 = inttoptr i64 %.138 to ptr
+B60.lr.ph.new:
   %unroll_iter = and i64 %.13, 9223372036854775800
-  %scevgep5 = getelementptr i8, ptr %1, i64 120
+  %scevgep5 = getelementptr i8, ptr %.pre, i64 120
   br label %B60
 
-B60:                                              ; preds = %B178.7, %B60.lr.ph.new
+B60:
   %lsr.iv1 = phi i64 [ %lsr.iv.next2, %B178.7 ], [ %unroll_iter, %B60.lr.ph.new ]
   %lsr.iv6 = phi ptr [ %scevgep7, %B178.7 ], [ %scevgep5, %B60.lr.ph.new ]
   %.153 = phi double [ %.15349.7, %B178.7 ], [ 0.000000e+00, %B60.lr.ph.new ]
@@ -8564,140 +7818,131 @@ B60:                                              ; preds = %B178.7, %B60.lr.ph.
   %.148 = fcmp oeq double %.143, %.147
   br i1 %.148, label %B112, label %B178
 
-B112:                                             ; preds = %B60
+B112:
   %scevgep22 = getelementptr i8, ptr %lsr.iv6, i64 -112
   %.164 = load double, ptr %scevgep22, align 8
   %.165 = fadd double %.153, %.164
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165, ptr %sunkaddr, align 8
+  store double %.165, ptr %.8, align 8
   br label %B178
 
-B178:                                             ; preds = %B112, %B60
+B178:
   %.15349 = phi double [ %.165, %B112 ], [ %.153, %B60 ]
   %scevgep20 = getelementptr i8, ptr %lsr.iv6, i64 -104
   %.143.1 = load double, ptr %scevgep20, align 8
   %.148.1 = fcmp oeq double %.143.1, %.147
   br i1 %.148.1, label %B112.1, label %B178.1
 
-B112.1:                                           ; preds = %B178
+B112.1:
   %scevgep19 = getelementptr i8, ptr %lsr.iv6, i64 -96
   %.164.1 = load double, ptr %scevgep19, align 8
   %.165.1 = fadd double %.15349, %.164.1
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.1, ptr %sunkaddr3, align 8
+  store double %.165.1, ptr %.8, align 8
   br label %B178.1
 
-B178.1:                                           ; preds = %B112.1, %B178
+B178.1:
   %.15349.1 = phi double [ %.165.1, %B112.1 ], [ %.15349, %B178 ]
   %scevgep18 = getelementptr i8, ptr %lsr.iv6, i64 -88
   %.143.2 = load double, ptr %scevgep18, align 8
   %.148.2 = fcmp oeq double %.143.2, %.147
   br i1 %.148.2, label %B112.2, label %B178.2
 
-B112.2:                                           ; preds = %B178.1
+B112.2:
   %scevgep17 = getelementptr i8, ptr %lsr.iv6, i64 -80
   %.164.2 = load double, ptr %scevgep17, align 8
   %.165.2 = fadd double %.15349.1, %.164.2
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.2, ptr %sunkaddr4, align 8
+  store double %.165.2, ptr %.8, align 8
   br label %B178.2
 
-B178.2:                                           ; preds = %B112.2, %B178.1
+B178.2:
   %.15349.2 = phi double [ %.165.2, %B112.2 ], [ %.15349.1, %B178.1 ]
   %scevgep16 = getelementptr i8, ptr %lsr.iv6, i64 -72
   %.143.3 = load double, ptr %scevgep16, align 8
   %.148.3 = fcmp oeq double %.143.3, %.147
   br i1 %.148.3, label %B112.3, label %B178.3
 
-B112.3:                                           ; preds = %B178.2
+B112.3:
   %scevgep15 = getelementptr i8, ptr %lsr.iv6, i64 -64
   %.164.3 = load double, ptr %scevgep15, align 8
   %.165.3 = fadd double %.15349.2, %.164.3
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.3, ptr %sunkaddr5, align 8
+  store double %.165.3, ptr %.8, align 8
   br label %B178.3
 
-B178.3:                                           ; preds = %B112.3, %B178.2
+B178.3:
   %.15349.3 = phi double [ %.165.3, %B112.3 ], [ %.15349.2, %B178.2 ]
   %scevgep14 = getelementptr i8, ptr %lsr.iv6, i64 -56
   %.143.4 = load double, ptr %scevgep14, align 8
   %.148.4 = fcmp oeq double %.143.4, %.147
   br i1 %.148.4, label %B112.4, label %B178.4
 
-B112.4:                                           ; preds = %B178.3
+B112.4:
   %scevgep13 = getelementptr i8, ptr %lsr.iv6, i64 -48
   %.164.4 = load double, ptr %scevgep13, align 8
   %.165.4 = fadd double %.15349.3, %.164.4
-  %sunkaddr6 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.4, ptr %sunkaddr6, align 8
+  store double %.165.4, ptr %.8, align 8
   br label %B178.4
 
-B178.4:                                           ; preds = %B112.4, %B178.3
+B178.4:
   %.15349.4 = phi double [ %.165.4, %B112.4 ], [ %.15349.3, %B178.3 ]
   %scevgep12 = getelementptr i8, ptr %lsr.iv6, i64 -40
   %.143.5 = load double, ptr %scevgep12, align 8
   %.148.5 = fcmp oeq double %.143.5, %.147
   br i1 %.148.5, label %B112.5, label %B178.5
 
-B112.5:                                           ; preds = %B178.4
+B112.5:
   %scevgep11 = getelementptr i8, ptr %lsr.iv6, i64 -32
   %.164.5 = load double, ptr %scevgep11, align 8
   %.165.5 = fadd double %.15349.4, %.164.5
-  %sunkaddr7 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.5, ptr %sunkaddr7, align 8
+  store double %.165.5, ptr %.8, align 8
   br label %B178.5
 
-B178.5:                                           ; preds = %B112.5, %B178.4
+B178.5:
   %.15349.5 = phi double [ %.165.5, %B112.5 ], [ %.15349.4, %B178.4 ]
   %scevgep10 = getelementptr i8, ptr %lsr.iv6, i64 -24
   %.143.6 = load double, ptr %scevgep10, align 8
   %.148.6 = fcmp oeq double %.143.6, %.147
   br i1 %.148.6, label %B112.6, label %B178.6
 
-B112.6:                                           ; preds = %B178.5
+B112.6:
   %scevgep9 = getelementptr i8, ptr %lsr.iv6, i64 -16
   %.164.6 = load double, ptr %scevgep9, align 8
   %.165.6 = fadd double %.15349.5, %.164.6
-  %sunkaddr8 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.6, ptr %sunkaddr8, align 8
+  store double %.165.6, ptr %.8, align 8
   br label %B178.6
 
-B178.6:                                           ; preds = %B112.6, %B178.5
+B178.6:
   %.15349.6 = phi double [ %.165.6, %B112.6 ], [ %.15349.5, %B178.5 ]
   %scevgep8 = getelementptr i8, ptr %lsr.iv6, i64 -8
   %.143.7 = load double, ptr %scevgep8, align 8
   %.148.7 = fcmp oeq double %.143.7, %.147
   br i1 %.148.7, label %B112.7, label %B178.7
 
-B112.7:                                           ; preds = %B178.6
+B112.7:
   %.164.7 = load double, ptr %lsr.iv6, align 8
   %.165.7 = fadd double %.15349.6, %.164.7
-  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.7, ptr %sunkaddr9, align 8
+  store double %.165.7, ptr %.8, align 8
   br label %B178.7
 
-B178.7:                                           ; preds = %B112.7, %B178.6
+B178.7:
   %.15349.7 = phi double [ %.165.7, %B112.7 ], [ %.15349.6, %B178.6 ]
   %scevgep7 = getelementptr i8, ptr %lsr.iv6, i64 128
   %lsr.iv.next2 = add nsw i64 %lsr.iv1, -8
   %niter.ncmp.7 = icmp eq i64 %lsr.iv.next2, 0
   br i1 %niter.ncmp.7, label %B180.loopexit.unr-lcssa, label %B60
 
-B180.loopexit.unr-lcssa:                          ; preds = %B178.7
+B180.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B180, label %B60.epil.preheader
 
-B60.epil.preheader:                               ; preds = %B180.loopexit.unr-lcssa, %B60.lr.ph
+B60.epil.preheader:
   %.153.epil.init = phi double [ %.15349.7, %B180.loopexit.unr-lcssa ], [ 0.000000e+00, %B60.lr.ph ]
   %.1014345.epil.init = phi i64 [ %unroll_iter, %B180.loopexit.unr-lcssa ], [ 0, %B60.lr.ph ]
-  %2 = inttoptr i64 %.138 to ptr
-  %3 = shl i64 %.1014345.epil.init, 4
-  %4 = getelementptr i8, ptr %2, i64 %3
-  %scevgep = getelementptr i8, ptr %4, i64 8
-  %5 = shl i64 %xtraiter, 4
+  %1 = shl i64 %.1014345.epil.init, 4
+  %2 = getelementptr i8, ptr %.pre, i64 %1
+  %scevgep = getelementptr i8, ptr %2, i64 8
+  %3 = shl nuw nsw i64 %xtraiter, 4
   br label %B60.epil
 
-B60.epil:                                         ; preds = %B178.epil, %B60.epil.preheader
+B60.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B178.epil ], [ 0, %B60.epil.preheader ]
   %.153.epil = phi double [ %.15349.epil, %B178.epil ], [ %.153.epil.init, %B60.epil.preheader ]
   %scevgep3 = getelementptr i8, ptr %scevgep, i64 %lsr.iv
@@ -8706,29 +7951,25 @@ B60.epil:                                         ; preds = %B178.epil, %B60.epi
   %.148.epil = fcmp oeq double %.143.epil, %.147
   br i1 %.148.epil, label %B112.epil, label %B178.epil
 
-B112.epil:                                        ; preds = %B60.epil
-  %sunkaddr10 = getelementptr inbounds i8, ptr %scevgep, i64 %lsr.iv
-  %.164.epil = load double, ptr %sunkaddr10, align 8
+B112.epil:
+  %.164.epil = load double, ptr %scevgep3, align 8
   %.165.epil = fadd double %.153.epil, %.164.epil
-  %sunkaddr11 = getelementptr i8, ptr %arg.r, i64 432
-  store double %.165.epil, ptr %sunkaddr11, align 8
+  store double %.165.epil, ptr %.8, align 8
   br label %B178.epil
 
-B178.epil:                                        ; preds = %B112.epil, %B60.epil
+B178.epil:
   %.15349.epil = phi double [ %.165.epil, %B112.epil ], [ %.153.epil, %B60.epil ]
   %lsr.iv.next = add nuw nsw i64 %lsr.iv, 16
-  %epil.iter.cmp.not = icmp eq i64 %5, %lsr.iv.next
-  br i1 %epil.iter.cmp.not, label %B180, label %B60.epil, !llvm.loop !212
+  %epil.iter.cmp.not = icmp eq i64 %3, %lsr.iv.next
+  br i1 %epil.iter.cmp.not, label %B180, label %B60.epil, !llvm.loop !255
 
-B180:                                             ; preds = %B178.epil, %B180.loopexit.unr-lcssa, %B0.endif
+B180:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-; Function Attrs: nocallback nofree nosync nounwind willreturn memory(argmem: readwrite)
 
-; Function Attrs: nofree norecurse nosync nounwind memory(read, argmem: readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r) local_unnamed_addr #5 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r) local_unnamed_addr #0 {
 B0:
   %.17 = alloca double, align 8
   %excinfo.1 = alloca ptr, align 8
@@ -8742,41 +7983,41 @@ B0:
   switch i32 %.21, label %B0.if.if [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-B188:                                             ; preds = %B80.endif.endif, %B0.endif
+B188:
   %first.3.0 = phi double [ %.31, %B0.endif ], [ %.13.i, %B80.endif.endif ]
   %.156 = getelementptr i8, ptr %arg.r, i64 208
   %.158 = load double, ptr %.156, align 8
   %.159 = fcmp ogt double %.158, 0.000000e+00
   br i1 %.159, label %B210.endif, label %B334
 
-common.ret:                                       ; preds = %B0.if.if, %B334
+common.ret:
   %common.ret.op = phi i32 [ 0, %B334 ], [ %.21, %B0.if.if ]
   ret i32 %common.ret.op
 
-B334:                                             ; preds = %B210.endif.endif, %B188
+B334:
   %first.4.0 = phi double [ %first.3.0, %B188 ], [ %.13.i26, %B210.endif.endif ]
   store double %first.4.0, ptr %retptr, align 8
   br label %common.ret
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.51 = getelementptr i8, ptr %arg.r, i64 200
   %.53 = load double, ptr %.51, align 8
   %.54 = fcmp ogt double %.53, 0.000000e+00
   br i1 %.54, label %B80.endif, label %B188
 
-B0.if.if:                                         ; preds = %B0
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B80.endif:                                        ; preds = %B0.endif
+B80.endif:
   %.8.i = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !213
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !256
   %.10.i = icmp eq i64 %.9.i, 1
   %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 360, i64 216
   %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
-  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !213
+  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !256
   %.15.i = fsub double %.11, %"$phi52.0.2.0.i"
   %.20.i = fdiv double %.15.i, %.53
   %.21.i = tail call double @llvm.floor.f64(double %.20.i)
@@ -8786,34 +8027,30 @@ B80.endif:                                        ; preds = %B0.endif
   %.61.i = fmul double %.53, %.60.i
   %.63.i = fadd double %"$phi52.0.2.0.i", %.61.i
   %.65.i = fcmp ugt double %.63.i, %.11
-  br i1 %.65.i, label %B80.endif.endif, label %B108.i.preheader
+  br i1 %.65.i, label %B80.endif.endif, label %B108.i
 
-B108.i.preheader:                                 ; preds = %B80.endif
-  %0 = add nuw i64 %.13.i.i, 1
-  br label %B108.i
-
-B108.i:                                           ; preds = %B108.i, %B108.i.preheader
-  %lsr.iv3 = phi i64 [ %0, %B108.i.preheader ], [ %lsr.iv.next4, %B108.i ]
+B108.i:
+  %lsr.iv3.in = phi i64 [ %lsr.iv3, %B108.i ], [ %.13.i.i, %B80.endif ]
+  %lsr.iv3 = add i64 %lsr.iv3.in, 1
   %.74.i = uitofp nneg i64 %lsr.iv3 to double
   %.75.i = fmul double %.53, %.74.i
   %.77.i = fadd double %"$phi52.0.2.0.i", %.75.i
   %.79.i = fcmp ugt double %.77.i, %.11
-  %lsr.iv.next4 = add i64 %lsr.iv3, 1
   br i1 %.79.i, label %B80.endif.endif, label %B108.i
 
-B80.endif.endif:                                  ; preds = %B108.i, %B80.endif
+B80.endif.endif:
   %.94.pre-phi.i = phi double [ %.63.i, %B80.endif ], [ %.77.i, %B108.i ]
   %.12.i = fcmp olt double %.94.pre-phi.i, %.31
   %.13.i = select i1 %.12.i, double %.94.pre-phi.i, double %.31
   br label %B188
 
-B210.endif:                                       ; preds = %B188
+B210.endif:
   %.8.i1 = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !216
+  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !259
   %.10.i3 = icmp eq i64 %.9.i2, 1
   %"$phi52.0.2.0.in.v.i4" = select i1 %.10.i3, i64 360, i64 216
   %"$phi52.0.2.0.in.i5" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i4"
-  %"$phi52.0.2.0.i6" = load double, ptr %"$phi52.0.2.0.in.i5", align 8, !noalias !216
+  %"$phi52.0.2.0.i6" = load double, ptr %"$phi52.0.2.0.in.i5", align 8, !noalias !259
   %.196 = fadd double %.158, %"$phi52.0.2.0.i6"
   %.15.i7 = fsub double %.11, %.196
   %.20.i8 = fdiv double %.15.i7, %.53
@@ -8824,56 +8061,50 @@ B210.endif:                                       ; preds = %B188
   %.61.i13 = fmul double %.53, %.60.i12
   %.63.i14 = fadd double %.196, %.61.i13
   %.65.i15 = fcmp ugt double %.63.i14, %.11
-  br i1 %.65.i15, label %B210.endif.endif, label %B108.i16.preheader
+  br i1 %.65.i15, label %B210.endif.endif, label %B108.i16
 
-B108.i16.preheader:                               ; preds = %B210.endif
-  %1 = add nuw i64 %.13.i.i11, 1
-  br label %B108.i16
-
-B108.i16:                                         ; preds = %B108.i16, %B108.i16.preheader
-  %lsr.iv2 = phi i64 [ %1, %B108.i16.preheader ], [ %lsr.iv.next, %B108.i16 ]
+B108.i16:
+  %lsr.iv2.in = phi i64 [ %lsr.iv2, %B108.i16 ], [ %.13.i.i11, %B210.endif ]
+  %lsr.iv2 = add i64 %lsr.iv2.in, 1
   %.74.i19 = uitofp nneg i64 %lsr.iv2 to double
   %.75.i20 = fmul double %.53, %.74.i19
   %.77.i21 = fadd double %.196, %.75.i20
   %.79.i22 = fcmp ugt double %.77.i21, %.11
-  %lsr.iv.next = add i64 %lsr.iv2, 1
   br i1 %.79.i22, label %B210.endif.endif, label %B108.i16
 
-B210.endif.endif:                                 ; preds = %B108.i16, %B210.endif
+B210.endif.endif:
   %.94.pre-phi.i23 = phi double [ %.63.i14, %B210.endif ], [ %.77.i21, %B108.i16 ]
   %.12.i25 = fcmp olt double %.94.pre-phi.i23, %first.3.0
   %.13.i26 = select i1 %.12.i25, double %.94.pre-phi.i23, double %first.3.0
   br label %B334
 }
 
-; Function Attrs: nocallback nofree nosync nounwind willreturn memory(argmem: readwrite)
 
-; Function Attrs: nofree norecurse nosync nounwind memory(read, argmem: readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
-define linkonce_odr i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.t, double %arg.last) local_unnamed_addr #5 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.t, double %arg.last) local_unnamed_addr #0 {
 B0.endif:
   %.15 = getelementptr i8, ptr %arg.r, i64 176
   %.16 = load i64, ptr %.15, align 8
   %.9845.not = icmp slt i64 %.16, 1
   br i1 %.9845.not, label %B236, label %B50.lr.ph
 
-B50.lr.ph:                                        ; preds = %B0.endif
+B50.lr.ph:
   %.137 = getelementptr i8, ptr %arg.r, i64 272
   %.138 = load i64, ptr %.137, align 8
   %.162 = getelementptr i8, ptr %arg.r, i64 336
   %.164 = load double, ptr %.162, align 8
   %xtraiter = and i64 %.16, 3
   %0 = icmp samesign ult i64 %.16, 4
+  %.pre = inttoptr i64 %.138 to ptr
   br i1 %0, label %B50.epil.preheader, label %B50.lr.ph.new
 
-B50.lr.ph.new:                                    ; preds = %B50.lr.ph
-  %1 = inttoptr i64 %.138 to ptr
-  %scevgep6 = getelementptr i8, ptr %1, i64 56
-  %2 = lshr i64 %.16, 2
-  %3 = shl nuw i64 %2, 2
+B50.lr.ph.new:
+  %scevgep6 = getelementptr i8, ptr %.pre, i64 56
+  %1 = and i64 %.16, 9223372036854775804
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 344
   br label %B50
 
-B50:                                              ; preds = %B237.3, %B50.lr.ph.new
-  %lsr.iv1 = phi i64 [ %lsr.iv.next2, %B237.3 ], [ %3, %B50.lr.ph.new ]
+B50:
+  %lsr.iv1 = phi i64 [ %lsr.iv.next2, %B237.3 ], [ %1, %B50.lr.ph.new ]
   %lsr.iv7 = phi ptr [ %scevgep8, %B237.3 ], [ %scevgep6, %B50.lr.ph.new ]
   %first.2.048 = phi double [ %first.3.1.3, %B237.3 ], [ %arg.last, %B50.lr.ph.new ]
   %scevgep14 = getelementptr i8, ptr %lsr.iv7, i64 -56
@@ -8883,17 +8114,16 @@ B50:                                              ; preds = %B237.3, %B50.lr.ph.
   %.166 = fcmp oeq double %.142, %.164
   br i1 %.166, label %B164, label %B164.thread
 
-B164:                                             ; preds = %B50
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 344
+B164:
   %.171 = load double, ptr %sunkaddr3, align 8
   %.173 = fadd double %.150, %.171
   br label %B198
 
-B164.thread:                                      ; preds = %B50
+B164.thread:
   %.18235 = fcmp oeq double %.142, 0.000000e+00
   br i1 %.18235, label %B198, label %B237
 
-B198:                                             ; preds = %B164.thread, %B164
+B198:
   %s.2.137 = phi double [ %.150, %B164.thread ], [ %.173, %B164 ]
   %.203 = fcmp olt double %arg.t, %s.2.137
   %.214 = fcmp olt double %s.2.137, %first.2.048
@@ -8901,22 +8131,21 @@ B198:                                             ; preds = %B164.thread, %B164
   %spec.select = select i1 %or.cond, double %s.2.137, double %first.2.048
   br label %B237
 
-B236.loopexit.unr-lcssa:                          ; preds = %B237.3
-  %unroll_iter = and i64 %.16, 9223372036854775804
+B236.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B236, label %B50.epil.preheader
 
-B50.epil.preheader:                               ; preds = %B236.loopexit.unr-lcssa, %B50.lr.ph
+B50.epil.preheader:
   %first.2.048.epil.init = phi double [ %first.3.1.3, %B236.loopexit.unr-lcssa ], [ %arg.last, %B50.lr.ph ]
-  %.1044446.epil.init = phi i64 [ %unroll_iter, %B236.loopexit.unr-lcssa ], [ 0, %B50.lr.ph ]
-  %4 = inttoptr i64 %.138 to ptr
-  %5 = shl i64 %.1044446.epil.init, 4
-  %6 = getelementptr i8, ptr %4, i64 %5
-  %scevgep = getelementptr i8, ptr %6, i64 8
-  %7 = shl i64 %xtraiter, 4
+  %.1044446.epil.init = phi i64 [ %1, %B236.loopexit.unr-lcssa ], [ 0, %B50.lr.ph ]
+  %2 = shl i64 %.1044446.epil.init, 4
+  %3 = getelementptr i8, ptr %.pre, i64 %2
+  %scevgep = getelementptr i8, ptr %3, i64 8
+  %4 = shl nuw nsw i64 %xtraiter, 4
+  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 344
   br label %B50.epil
 
-B50.epil:                                         ; preds = %B237.epil, %B50.epil.preheader
+B50.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B237.epil ], [ 0, %B50.epil.preheader ]
   %first.2.048.epil = phi double [ %first.3.1.epil, %B237.epil ], [ %first.2.048.epil.init, %B50.epil.preheader ]
   %scevgep4 = getelementptr i8, ptr %scevgep, i64 %lsr.iv
@@ -8926,17 +8155,16 @@ B50.epil:                                         ; preds = %B237.epil, %B50.epi
   %.166.epil = fcmp oeq double %.142.epil, %.164
   br i1 %.166.epil, label %B164.epil, label %B164.thread.epil
 
-B164.thread.epil:                                 ; preds = %B50.epil
+B164.thread.epil:
   %.18235.epil = fcmp oeq double %.142.epil, 0.000000e+00
   br i1 %.18235.epil, label %B198.epil, label %B237.epil
 
-B164.epil:                                        ; preds = %B50.epil
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 344
+B164.epil:
   %.171.epil = load double, ptr %sunkaddr4, align 8
   %.173.epil = fadd double %.150.epil, %.171.epil
   br label %B198.epil
 
-B198.epil:                                        ; preds = %B164.epil, %B164.thread.epil
+B198.epil:
   %s.2.137.epil = phi double [ %.150.epil, %B164.thread.epil ], [ %.173.epil, %B164.epil ]
   %.203.epil = fcmp olt double %arg.t, %s.2.137.epil
   %.214.epil = fcmp olt double %s.2.137.epil, %first.2.048.epil
@@ -8944,18 +8172,18 @@ B198.epil:                                        ; preds = %B164.epil, %B164.th
   %spec.select.epil = select i1 %or.cond.epil, double %s.2.137.epil, double %first.2.048.epil
   br label %B237.epil
 
-B237.epil:                                        ; preds = %B198.epil, %B164.thread.epil
+B237.epil:
   %first.3.1.epil = phi double [ %spec.select.epil, %B198.epil ], [ %first.2.048.epil, %B164.thread.epil ]
   %lsr.iv.next = add nuw nsw i64 %lsr.iv, 16
-  %epil.iter.cmp.not = icmp eq i64 %7, %lsr.iv.next
-  br i1 %epil.iter.cmp.not, label %B236, label %B50.epil, !llvm.loop !219
+  %epil.iter.cmp.not = icmp eq i64 %4, %lsr.iv.next
+  br i1 %epil.iter.cmp.not, label %B236, label %B50.epil, !llvm.loop !262
 
-B236:                                             ; preds = %B237.epil, %B236.loopexit.unr-lcssa, %B0.endif
+B236:
   %first.2.0.lcssa = phi double [ %arg.last, %B0.endif ], [ %first.3.1.3, %B236.loopexit.unr-lcssa ], [ %first.3.1.epil, %B237.epil ]
   store double %first.2.0.lcssa, ptr %retptr, align 8
   ret i32 0
 
-B237:                                             ; preds = %B198, %B164.thread
+B237:
   %first.3.1 = phi double [ %spec.select, %B198 ], [ %first.2.048, %B164.thread ]
   %scevgep13 = getelementptr i8, ptr %lsr.iv7, i64 -40
   %.142.1 = load double, ptr %scevgep13, align 8
@@ -8964,17 +8192,16 @@ B237:                                             ; preds = %B198, %B164.thread
   %.166.1 = fcmp oeq double %.142.1, %.164
   br i1 %.166.1, label %B164.1, label %B164.thread.1
 
-B164.thread.1:                                    ; preds = %B237
+B164.thread.1:
   %.18235.1 = fcmp oeq double %.142.1, 0.000000e+00
   br i1 %.18235.1, label %B198.1, label %B237.1
 
-B164.1:                                           ; preds = %B237
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 344
-  %.171.1 = load double, ptr %sunkaddr5, align 8
+B164.1:
+  %.171.1 = load double, ptr %sunkaddr3, align 8
   %.173.1 = fadd double %.150.1, %.171.1
   br label %B198.1
 
-B198.1:                                           ; preds = %B164.1, %B164.thread.1
+B198.1:
   %s.2.137.1 = phi double [ %.150.1, %B164.thread.1 ], [ %.173.1, %B164.1 ]
   %.203.1 = fcmp olt double %arg.t, %s.2.137.1
   %.214.1 = fcmp olt double %s.2.137.1, %first.3.1
@@ -8982,7 +8209,7 @@ B198.1:                                           ; preds = %B164.1, %B164.threa
   %spec.select.1 = select i1 %or.cond.1, double %s.2.137.1, double %first.3.1
   br label %B237.1
 
-B237.1:                                           ; preds = %B198.1, %B164.thread.1
+B237.1:
   %first.3.1.1 = phi double [ %spec.select.1, %B198.1 ], [ %first.3.1, %B164.thread.1 ]
   %scevgep11 = getelementptr i8, ptr %lsr.iv7, i64 -24
   %.142.2 = load double, ptr %scevgep11, align 8
@@ -8991,17 +8218,16 @@ B237.1:                                           ; preds = %B198.1, %B164.threa
   %.166.2 = fcmp oeq double %.142.2, %.164
   br i1 %.166.2, label %B164.2, label %B164.thread.2
 
-B164.thread.2:                                    ; preds = %B237.1
+B164.thread.2:
   %.18235.2 = fcmp oeq double %.142.2, 0.000000e+00
   br i1 %.18235.2, label %B198.2, label %B237.2
 
-B164.2:                                           ; preds = %B237.1
-  %sunkaddr6 = getelementptr i8, ptr %arg.r, i64 344
-  %.171.2 = load double, ptr %sunkaddr6, align 8
+B164.2:
+  %.171.2 = load double, ptr %sunkaddr3, align 8
   %.173.2 = fadd double %.150.2, %.171.2
   br label %B198.2
 
-B198.2:                                           ; preds = %B164.2, %B164.thread.2
+B198.2:
   %s.2.137.2 = phi double [ %.150.2, %B164.thread.2 ], [ %.173.2, %B164.2 ]
   %.203.2 = fcmp olt double %arg.t, %s.2.137.2
   %.214.2 = fcmp olt double %s.2.137.2, %first.3.1.1
@@ -9009,7 +8235,7 @@ B198.2:                                           ; preds = %B164.2, %B164.threa
   %spec.select.2 = select i1 %or.cond.2, double %s.2.137.2, double %first.3.1.1
   br label %B237.2
 
-B237.2:                                           ; preds = %B198.2, %B164.thread.2
+B237.2:
   %first.3.1.2 = phi double [ %spec.select.2, %B198.2 ], [ %first.3.1.1, %B164.thread.2 ]
   %scevgep9 = getelementptr i8, ptr %lsr.iv7, i64 -8
   %.142.3 = load double, ptr %scevgep9, align 8
@@ -9017,17 +8243,16 @@ B237.2:                                           ; preds = %B198.2, %B164.threa
   %.166.3 = fcmp oeq double %.142.3, %.164
   br i1 %.166.3, label %B164.3, label %B164.thread.3
 
-B164.thread.3:                                    ; preds = %B237.2
+B164.thread.3:
   %.18235.3 = fcmp oeq double %.142.3, 0.000000e+00
   br i1 %.18235.3, label %B198.3, label %B237.3
 
-B164.3:                                           ; preds = %B237.2
-  %sunkaddr7 = getelementptr i8, ptr %arg.r, i64 344
-  %.171.3 = load double, ptr %sunkaddr7, align 8
+B164.3:
+  %.171.3 = load double, ptr %sunkaddr3, align 8
   %.173.3 = fadd double %.150.3, %.171.3
   br label %B198.3
 
-B198.3:                                           ; preds = %B164.3, %B164.thread.3
+B198.3:
   %s.2.137.3 = phi double [ %.150.3, %B164.thread.3 ], [ %.173.3, %B164.3 ]
   %.203.3 = fcmp olt double %arg.t, %s.2.137.3
   %.214.3 = fcmp olt double %s.2.137.3, %first.3.1.2
@@ -9035,99 +8260,31 @@ B198.3:                                           ; preds = %B164.3, %B164.threa
   %spec.select.3 = select i1 %or.cond.3, double %s.2.137.3, double %first.3.1.2
   br label %B237.3
 
-B237.3:                                           ; preds = %B198.3, %B164.thread.3
+B237.3:
   %first.3.1.3 = phi double [ %spec.select.3, %B198.3 ], [ %first.3.1.2, %B164.thread.3 ]
   %scevgep8 = getelementptr i8, ptr %lsr.iv7, i64 64
-  %lsr.iv.next2 = add i64 %lsr.iv1, -4
+  %lsr.iv.next2 = add nsw i64 %lsr.iv1, -4
   %niter.ncmp.3 = icmp eq i64 %lsr.iv.next2, 0
   br i1 %niter.ncmp.3, label %B236.loopexit.unr-lcssa, label %B50
 }
 
-define i64 @go_on(ptr initializes((424, 440)) %.1) local_unnamed_addr {
+
+define i64 @go_on(ptr initializes((424, 440)) %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #9
-  %.8 = load ptr, ptr %excinfo, align 8
-  %.17 = load i64, ptr %.3, align 8
-  %.19 = alloca i32, align 4
-  store i32 0, ptr %.19, align 4
+  %.7 = call i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
   %cond = icmp eq i32 %.7, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.15 = icmp sgt i32 %.7, 0
-  call void @numba_gil_ensure(ptr nonnull %.19)
-  br i1 %.15, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.22, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.17, %.22 ], [ %.17, %entry ]
-  ret i64 %common.ret.op
-
-.22:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.70 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.44")
-  call void @PyErr_WriteUnraisable(ptr %.70)
-  call void @Py_DecRef(ptr %.70)
-  call void @numba_gil_release(ptr nonnull %.19)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.25 = load { ptr, i32, ptr, ptr, i32 }, ptr %.8, align 8
-  %.26 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 4
-  %.27 = icmp sgt i32 %.26, 0
-  %.30 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 0
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 1
-  br i1 %.27, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.7, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.22
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.33 = sext i32 %.32 to i64
-  %.34 = call ptr @PyBytes_FromStringAndSize(ptr %.30, i64 %.33)
-  %.35 = load { ptr, i32, ptr, ptr, i32 }, ptr %.8, align 8
-  %.36 = extractvalue { ptr, i32, ptr, ptr, i32 } %.35, 2
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.35, 3
-  %.40 = call ptr %.38(ptr %.36)
-  %.41 = icmp eq ptr %.40, null
-  br i1 %.41, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.54 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 2
-  %.55 = call ptr @numba_unpickle(ptr %.30, i32 %.32, ptr %.54)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.57 = phi ptr [ %.45, %entry.if.if.if.endif ], [ %.55, %entry.if.if.else ]
-  %.58.not = icmp eq ptr %.57, null
-  br i1 %.58.not, label %.22, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.45")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.45 = call ptr @numba_runtime_build_excinfo_struct(ptr %.34, ptr nonnull %.40)
-  call void @NRT_Free(ptr nonnull %.8)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.57)
-  br label %.22
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.22
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.46")
-  br label %.22
+common.ret:
+  %.17 = load i64, ptr %.3, align 8
+  ret i64 %.17
 }
 
 define i32 @_ZN18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r) local_unnamed_addr {
@@ -9161,146 +8318,139 @@ B0:
   switch i32 %.45, label %B0.if.if [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-common.ret:                                       ; preds = %B404.if.if, %B404.endif, %B0.if.if, %B390, %B324
+common.ret:
   %common.ret.op = phi i32 [ 0, %B324 ], [ 0, %B390 ], [ %.45, %B0.if.if ], [ %.167, %B404.if.if ], [ 0, %B404.endif ]
   ret i32 %common.ret.op
 
-B324:                                             ; preds = %B0.endif
+B324:
   store i64 5, ptr %retptr, align 8
   br label %common.ret
 
-B338:                                             ; preds = %B0.endif
+B338:
   %.9240.not.i = icmp slt i64 %.96, 1
   br i1 %.9240.not.i, label %B404, label %iter.check.i
 
-iter.check.i:                                     ; preds = %B338
+iter.check.i:
   %min.iters.check.i = icmp samesign ult i64 %.96, 4
   br i1 %min.iters.check.i, label %B40.i.preheader, label %vector.main.loop.iter.check.i
 
-vector.main.loop.iter.check.i:                    ; preds = %iter.check.i
-  %const = bitcast i64 9223372036854775792 to i64
+vector.main.loop.iter.check.i:
   %min.iters.check1.i = icmp samesign ult i64 %.96, 16
   br i1 %min.iters.check1.i, label %vec.epilog.ph.i, label %vector.ph.i
 
-vector.ph.i:                                      ; preds = %vector.main.loop.iter.check.i
-  %n.vec.i = and i64 %.96, %const
+vector.ph.i:
+  %n.vec.i = and i64 %.96, 9223372036854775792
   br label %vector.body.i
 
-vector.body.i:                                    ; preds = %vector.body.i, %vector.ph.i
+vector.body.i:
   %index.i = phi i64 [ 0, %vector.ph.i ], [ %index.next.i, %vector.body.i ]
-  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %5, %vector.body.i ]
-  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %6, %vector.body.i ]
-  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %7, %vector.body.i ]
-  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %8, %vector.body.i ]
-  %0 = inttoptr i64 %.92 to ptr
-  %sunkaddr = mul i64 %index.i, 8
-  %sunkaddr34 = getelementptr i8, ptr %0, i64 %sunkaddr
-  %wide.load.i = load <4 x double>, ptr %sunkaddr34, align 8, !noalias !220
-  %sunkaddr35 = mul i64 %index.i, 8
-  %sunkaddr36 = getelementptr i8, ptr %0, i64 %sunkaddr35
-  %sunkaddr37 = getelementptr i8, ptr %sunkaddr36, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr37, align 8, !noalias !220
-  %sunkaddr38 = mul i64 %index.i, 8
-  %sunkaddr39 = getelementptr i8, ptr %0, i64 %sunkaddr38
-  %sunkaddr40 = getelementptr i8, ptr %sunkaddr39, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr40, align 8, !noalias !220
-  %sunkaddr41 = mul i64 %index.i, 8
-  %sunkaddr42 = getelementptr i8, ptr %0, i64 %sunkaddr41
-  %sunkaddr43 = getelementptr i8, ptr %sunkaddr42, i64 96
-  %wide.load7.i = load <4 x double>, ptr %sunkaddr43, align 8, !noalias !220
-  %1 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load.i, i32 504)
-  %2 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load5.i, i32 504)
-  %3 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load6.i, i32 504)
-  %4 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load7.i, i32 504)
-  %5 = and <4 x i1> %vec.phi.i, %1
-  %6 = and <4 x i1> %vec.phi2.i, %2
-  %7 = and <4 x i1> %vec.phi3.i, %3
-  %8 = and <4 x i1> %vec.phi4.i, %4
+  %vec.phi.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %8, %vector.body.i ]
+  %vec.phi2.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %9, %vector.body.i ]
+  %vec.phi3.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %10, %vector.body.i ]
+  %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %11, %vector.body.i ]
+  %sunkaddr = shl i64 %index.i, 3
+  %sunkaddr34 = getelementptr i8, ptr %.93, i64 %sunkaddr
+  %wide.load.i = load <4 x double>, ptr %sunkaddr34, align 8, !noalias !263
+  %sunkaddr37 = getelementptr i8, ptr %sunkaddr34, i64 32
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr37, align 8, !noalias !263
+  %sunkaddr40 = getelementptr i8, ptr %sunkaddr34, i64 64
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr40, align 8, !noalias !263
+  %sunkaddr43 = getelementptr i8, ptr %sunkaddr34, i64 96
+  %wide.load7.i = load <4 x double>, ptr %sunkaddr43, align 8, !noalias !263
+  %0 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
+  %1 = fcmp one <4 x double> %0, splat (double 0x7FF0000000000000)
+  %2 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
+  %3 = fcmp one <4 x double> %2, splat (double 0x7FF0000000000000)
+  %4 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load6.i)
+  %5 = fcmp one <4 x double> %4, splat (double 0x7FF0000000000000)
+  %6 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load7.i)
+  %7 = fcmp one <4 x double> %6, splat (double 0x7FF0000000000000)
+  %8 = and <4 x i1> %vec.phi.i, %1
+  %9 = and <4 x i1> %vec.phi2.i, %3
+  %10 = and <4 x i1> %vec.phi3.i, %5
+  %11 = and <4 x i1> %vec.phi4.i, %7
   %index.next.i = add nuw nsw i64 %index.i, 16
-  %9 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %9, label %middle.block.i, label %vector.body.i, !llvm.loop !223
+  %12 = icmp eq i64 %n.vec.i, %index.next.i
+  br i1 %12, label %middle.block.i, label %vector.body.i, !llvm.loop !266
 
-middle.block.i:                                   ; preds = %vector.body.i
-  %bin.rdx.i = and <4 x i1> %5, %6
-  %bin.rdx8.i = and <4 x i1> %7, %bin.rdx.i
-  %bin.rdx9.i = and <4 x i1> %8, %bin.rdx8.i
-  %10 = bitcast <4 x i1> %bin.rdx9.i to i4
-  %11 = icmp eq i4 %10, -1
+middle.block.i:
+  %bin.rdx.i = and <4 x i1> %8, %9
+  %bin.rdx8.i = and <4 x i1> %10, %bin.rdx.i
+  %bin.rdx9.i = and <4 x i1> %11, %bin.rdx8.i
+  %13 = bitcast <4 x i1> %bin.rdx9.i to i4
+  %14 = icmp eq i4 %13, -1
   %cmp.n.i = icmp eq i64 %.96, %n.vec.i
   br i1 %cmp.n.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %vec.epilog.iter.check.i
 
-vec.epilog.iter.check.i:                          ; preds = %middle.block.i
-  %12 = and i64 %.96, 12
-  %min.epilog.iters.check.i = icmp eq i64 %12, 0
-  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !21
+vec.epilog.iter.check.i:
+  %15 = and i64 %.96, 12
+  %min.epilog.iters.check.i = icmp eq i64 %15, 0
+  br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !20
 
-vec.epilog.ph.i:                                  ; preds = %vec.epilog.iter.check.i, %vector.main.loop.iter.check.i
+vec.epilog.ph.i:
   %vec.epilog.resume.val.i = phi i64 [ %n.vec.i, %vec.epilog.iter.check.i ], [ 0, %vector.main.loop.iter.check.i ]
-  %bc.merge.rdx.i = phi i1 [ %11, %vec.epilog.iter.check.i ], [ true, %vector.main.loop.iter.check.i ]
-  %const_mat = add i64 %const, 12
-  %n.vec11.i = and i64 %.96, %const_mat
-  %13 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
+  %bc.merge.rdx.i = phi i1 [ %14, %vec.epilog.iter.check.i ], [ true, %vector.main.loop.iter.check.i ]
+  %n.vec11.i = and i64 %.96, 9223372036854775804
+  %16 = insertelement <4 x i1> <i1 poison, i1 true, i1 true, i1 true>, i1 %bc.merge.rdx.i, i64 0
   br label %vec.epilog.vector.body.i
 
-vec.epilog.vector.body.i:                         ; preds = %vec.epilog.vector.body.i, %vec.epilog.ph.i
+vec.epilog.vector.body.i:
   %index12.i = phi i64 [ %vec.epilog.resume.val.i, %vec.epilog.ph.i ], [ %index.next15.i, %vec.epilog.vector.body.i ]
-  %vec.phi13.i = phi <4 x i1> [ %13, %vec.epilog.ph.i ], [ %17, %vec.epilog.vector.body.i ]
-  %14 = inttoptr i64 %.92 to ptr
-  %15 = shl i64 %index12.i, 3
-  %scevgep28.i = getelementptr i8, ptr %14, i64 %15
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !220
-  %16 = call <4 x i1> @llvm.is.fpclass.v4f64(<4 x double> %wide.load14.i, i32 504)
-  %17 = and <4 x i1> %vec.phi13.i, %16
+  %vec.phi13.i = phi <4 x i1> [ %16, %vec.epilog.ph.i ], [ %20, %vec.epilog.vector.body.i ]
+  %17 = shl i64 %index12.i, 3
+  %scevgep28.i = getelementptr i8, ptr %.93, i64 %17
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !263
+  %18 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
+  %19 = fcmp one <4 x double> %18, splat (double 0x7FF0000000000000)
+  %20 = and <4 x i1> %vec.phi13.i, %19
   %index.next15.i = add nuw i64 %index12.i, 4
-  %18 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %18, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !224
+  %21 = icmp eq i64 %n.vec11.i, %index.next15.i
+  br i1 %21, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !267
 
-vec.epilog.middle.block.i:                        ; preds = %vec.epilog.vector.body.i
-  %19 = bitcast <4 x i1> %17 to i4
-  %20 = icmp eq i4 %19, -1
+vec.epilog.middle.block.i:
+  %22 = bitcast <4 x i1> %20 to i4
+  %23 = icmp eq i4 %22, -1
   %cmp.n16.i = icmp eq i64 %.96, %n.vec11.i
   br i1 %cmp.n16.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i.preheader
 
-B40.i.preheader:                                  ; preds = %vec.epilog.middle.block.i, %vec.epilog.iter.check.i, %iter.check.i
-  %good.2.043.i.ph = phi i1 [ %20, %vec.epilog.middle.block.i ], [ %11, %vec.epilog.iter.check.i ], [ true, %iter.check.i ]
-  %.983941.i.ph = phi i64 [ %n.vec11.i, %vec.epilog.middle.block.i ], [ %n.vec.i, %vec.epilog.iter.check.i ], [ 0, %iter.check.i ]
+B40.i.preheader:
+  %good.2.043.i.ph = phi i1 [ true, %iter.check.i ], [ %14, %vec.epilog.iter.check.i ], [ %23, %vec.epilog.middle.block.i ]
+  %.983941.i.ph = phi i64 [ 0, %iter.check.i ], [ %n.vec.i, %vec.epilog.iter.check.i ], [ %n.vec11.i, %vec.epilog.middle.block.i ]
   br label %B40.i
 
-B40.i:                                            ; preds = %B40.i, %B40.i.preheader
+B40.i:
   %good.2.043.i = phi i1 [ %.136.i, %B40.i ], [ %good.2.043.i.ph, %B40.i.preheader ]
   %.983941.i = phi i64 [ %.105.i, %B40.i ], [ %.983941.i.ph, %B40.i.preheader ]
-  %21 = inttoptr i64 %.92 to ptr
   %.105.i = add nuw nsw i64 %.983941.i, 1
-  %22 = shl i64 %.983941.i, 3
-  %scevgep.i = getelementptr i8, ptr %21, i64 %22
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !220
-  %23 = call i1 @llvm.is.fpclass.f64(double %.132.i, i32 504)
-  %.136.i = and i1 %good.2.043.i, %23
+  %24 = shl i64 %.983941.i, 3
+  %scevgep.i = getelementptr i8, ptr %.93, i64 %24
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !263
+  %25 = call double @llvm.fabs.f64(double %.132.i)
+  %26 = fcmp one double %25, 0x7FF0000000000000
+  %.136.i = and i1 %good.2.043.i, %26
   %exitcond.not.i = icmp eq i64 %.96, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !225
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !268
 
-_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit: ; preds = %B40.i, %vec.epilog.middle.block.i, %middle.block.i
-  %.136.lcssa.i = phi i1 [ %20, %vec.epilog.middle.block.i ], [ %11, %middle.block.i ], [ %.136.i, %B40.i ]
+_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
+  %.136.lcssa.i = phi i1 [ %23, %vec.epilog.middle.block.i ], [ %14, %middle.block.i ], [ %.136.i, %B40.i ]
   br i1 %.136.lcssa.i, label %B404, label %B390
 
-B390:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit
+B390:
   store i64 4, ptr %retptr, align 8
   br label %common.ret
 
-B404:                                             ; preds = %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, %B338
-  %24 = inttoptr i64 %.92 to ptr
-  %sunkaddr44 = getelementptr i8, ptr %arg.r, i64 544
-  %.158 = load i64, ptr %sunkaddr44, align 8
+B404:
+  %.158 = load i64, ptr %.30, align 8
   %.159 = inttoptr i64 %.158 to ptr
-  %.167 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.163, ptr nonnull %excinfo.3, ptr nonnull %24, ptr %.159, i64 %.96)
+  %.167 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.163, ptr nonnull %excinfo.3, ptr nonnull %.93, ptr %.159, i64 %.96)
   switch i32 %.167, label %B404.if.if [
     i32 -2, label %B404.endif
     i32 0, label %B404.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.68 = getelementptr i8, ptr %arg.r, i64 616
   %.69 = load i64, ptr %.68, align 8
   %.70 = inttoptr i64 %.69 to ptr
@@ -9310,8 +8460,7 @@ B0.endif:                                         ; preds = %B0, %B0
   %.77 = getelementptr i8, ptr %arg.r, i64 256
   %.78 = load i64, ptr %.77, align 8
   %.79 = inttoptr i64 %.78 to ptr
-  %sunkaddr45 = getelementptr i8, ptr %arg.r, i64 488
-  %.82 = load i64, ptr %sunkaddr45, align 8
+  %.82 = load i64, ptr %.17, align 8
   %.83 = inttoptr i64 %.82 to ptr
   %.86 = load i64, ptr %.68, align 8
   %.87 = inttoptr i64 %.86 to ptr
@@ -9319,24 +8468,21 @@ B0.endif:                                         ; preds = %B0, %B0
   tail call void %.88(ptr %.79, ptr %.83, ptr %.87)
   %.92 = load i64, ptr %.68, align 8
   %.93 = inttoptr i64 %.92 to ptr
-  %sunkaddr46 = getelementptr i8, ptr %arg.r, i64 80
-  %.96 = load i64, ptr %sunkaddr46, align 8
+  %.96 = load i64, ptr %.39, align 8
   %.97 = getelementptr double, ptr %.93, i64 %.96
   %.98 = load double, ptr %.97, align 8
   %.99 = fcmp oeq double %.98, 0.000000e+00
   br i1 %.99, label %B324, label %B338
 
-B0.if.if:                                         ; preds = %B0
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B404.endif:                                       ; preds = %B404, %B404
-  %sunkaddr47 = getelementptr i8, ptr %arg.r, i64 336
-  %.190 = load double, ptr %sunkaddr47, align 8
+B404.endif:
+  %.190 = load double, ptr %.12, align 8
   %.191 = fadd double %.190, 1.000000e+00
-  store double %.191, ptr %sunkaddr47, align 8
-  %sunkaddr48 = getelementptr i8, ptr %arg.r, i64 328
-  %.199 = load double, ptr %sunkaddr48, align 8
+  store double %.191, ptr %.12, align 8
+  %.199 = load double, ptr %.8, align 8
   %.201 = getelementptr i8, ptr %arg.r, i64 344
   store double %.199, ptr %.201, align 8
   %.205 = getelementptr i8, ptr %arg.r, i64 360
@@ -9346,100 +8492,39 @@ B404.endif:                                       ; preds = %B404, %B404
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B404.if.if:                                       ; preds = %B404
+B404.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 }
 
-define i64 @land(ptr %.1) local_unnamed_addr {
+
+define i64 @land(ptr %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #9
-  %.8 = load ptr, ptr %excinfo, align 8
-  %.17 = load i64, ptr %.3, align 8
-  %.19 = alloca i32, align 4
-  store i32 0, ptr %.19, align 4
+  %.7 = call i32 @_ZN18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
   %cond = icmp eq i32 %.7, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.15 = icmp sgt i32 %.7, 0
-  call void @numba_gil_ensure(ptr nonnull %.19)
-  br i1 %.15, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.22, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.17, %.22 ], [ %.17, %entry ]
-  ret i64 %common.ret.op
-
-.22:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.70 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.47")
-  call void @PyErr_WriteUnraisable(ptr %.70)
-  call void @Py_DecRef(ptr %.70)
-  call void @numba_gil_release(ptr nonnull %.19)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.25 = load { ptr, i32, ptr, ptr, i32 }, ptr %.8, align 8
-  %.26 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 4
-  %.27 = icmp sgt i32 %.26, 0
-  %.30 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 0
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 1
-  br i1 %.27, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.7, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.22
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.33 = sext i32 %.32 to i64
-  %.34 = call ptr @PyBytes_FromStringAndSize(ptr %.30, i64 %.33)
-  %.35 = load { ptr, i32, ptr, ptr, i32 }, ptr %.8, align 8
-  %.36 = extractvalue { ptr, i32, ptr, ptr, i32 } %.35, 2
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.35, 3
-  %.40 = call ptr %.38(ptr %.36)
-  %.41 = icmp eq ptr %.40, null
-  br i1 %.41, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.54 = extractvalue { ptr, i32, ptr, ptr, i32 } %.25, 2
-  %.55 = call ptr @numba_unpickle(ptr %.30, i32 %.32, ptr %.54)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.57 = phi ptr [ %.45, %entry.if.if.if.endif ], [ %.55, %entry.if.if.else ]
-  %.58.not = icmp eq ptr %.57, null
-  br i1 %.58.not, label %.22, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.48")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.45 = call ptr @numba_runtime_build_excinfo_struct(ptr %.34, ptr nonnull %.40)
-  call void @NRT_Free(ptr nonnull %.8)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.57)
-  br label %.22
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.22
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.49")
-  br label %.22
+common.ret:
+  %.17 = load i64, ptr %.3, align 8
+  ret i64 %.17
 }
 
-define i32 @_ZN18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.impacts, ptr writeonly %arg.strikes) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.impacts, ptr writeonly %arg.strikes) local_unnamed_addr #0 {
 B0.endif:
+  %.3.i4 = alloca i64, align 8
+  %excinfo.i5 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i1 = alloca ptr, align 8
+  %.3.i = alloca i64, align 8
+  %excinfo.i = alloca ptr, align 8
   %.222 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.290 = alloca ptr, align 8
@@ -9449,221 +8534,189 @@ B0.endif:
   %.9894.not = icmp slt i64 %arg.impacts, 1
   br i1 %.9894.not, label %B530, label %B50.lr.ph
 
-B50.lr.ph:                                        ; preds = %B0.endif
+B50.lr.ph:
   %0 = shl i64 %.13, 3
-  %scevgep = getelementptr i8, ptr %arg.strikes, i64 8
   %1 = shl i64 %.13, 4
-  %2 = add nuw nsw i64 %1, 8
+  %sunkaddr83 = getelementptr i8, ptr %arg.r, i64 544
+  %sunkaddr84 = getelementptr i8, ptr %arg.r, i64 328
   br label %B50
 
-B50:                                              ; preds = %B48.backedge, %B50.lr.ph
+B50:
   %lsr.iv81 = phi i64 [ %arg.impacts, %B50.lr.ph ], [ %lsr.iv.next, %B48.backedge ]
-  %lsr.iv = phi ptr [ %scevgep, %B50.lr.ph ], [ %scevgep78, %B48.backedge ]
-  %.140 = tail call i64 @go_on(ptr nonnull %arg.r)
-  switch i64 %.140, label %B252.loopexit [
+  %arg.strikes.pn = phi ptr [ %arg.strikes, %B50.lr.ph ], [ %2, %B48.backedge ]
+  %lsr.iv = getelementptr i8, ptr %arg.strikes.pn, i64 8
+  store i64 0, ptr %.3.i, align 8
+  %.7.i = call i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r) #0
+  %cond.i = icmp eq i32 %.7.i, 0
+  br i1 %cond.i, label %go_on.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+go_on.exit:
+  %.17.i = load i64, ptr %.3.i, align 8
+  switch i64 %.17.i, label %B252 [
     i64 0, label %B104
     i64 9, label %B258
   ]
 
-B104:                                             ; preds = %B50
+B104:
   %.148 = getelementptr i8, ptr %arg.r, i64 64
   %.149 = load i64, ptr %.148, align 8
   %.150.not = icmp eq i64 %.149, 0
   br i1 %.150.not, label %B252, label %B126
 
-B126:                                             ; preds = %B104
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 328
-  %.155 = load double, ptr %sunkaddr, align 8
-  %sunkaddr82 = getelementptr i8, ptr %arg.r, i64 544
-  %.158 = load i64, ptr %sunkaddr82, align 8
+B126:
+  %.155 = load double, ptr %sunkaddr84, align 8
+  %.158 = load i64, ptr %sunkaddr83, align 8
   %.159 = inttoptr i64 %.158 to ptr
   %.161 = getelementptr i8, ptr %arg.r, i64 552
   %.162 = load i64, ptr %.161, align 8
   %.163 = inttoptr i64 %.162 to ptr
-  %.165 = tail call ptr @node(ptr nonnull %arg.r, double %.155, ptr %.159, ptr %.163)
+  %.10.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i1, ptr nonnull %arg.r, double %.155, ptr readonly %.159, ptr readonly %.163) #0
+  %cond.i2 = icmp eq i32 %.10.i, 0
+  br i1 %cond.i2, label %node.exit, label %entry.if.i3, !prof !24
+
+entry.if.i3:
+  tail call void @llvm.trap()
+  unreachable
+
+node.exit:
   br label %B252
 
-common.ret:                                       ; preds = %B430.if.if, %B258.if.if, %B530, %B422, %B252
+common.ret:
   %common.ret.op = phi i32 [ 0, %B252 ], [ 0, %B422 ], [ 0, %B530 ], [ %.226, %B258.if.if ], [ %.294, %B430.if.if ]
   ret i32 %common.ret.op
 
-B252.loopexit:                                    ; preds = %B50
-  br label %B252
-
-B252:                                             ; preds = %B252.loopexit, %B126, %B104
-  %"$phi252.1.2.0" = phi i64 [ 1, %B104 ], [ 1, %B126 ], [ %.140, %B252.loopexit ]
+B252:
+  %"$phi252.1.2.0" = phi i64 [ 1, %B104 ], [ 1, %node.exit ], [ %.17.i, %go_on.exit ]
   store i64 %"$phi252.1.2.0", ptr %retptr, align 8
   br label %common.ret
 
-B258:                                             ; preds = %B50
-  %sunkaddr83 = getelementptr i8, ptr %arg.r, i64 544
+B258:
   %.217 = load i64, ptr %sunkaddr83, align 8
   %.218 = inttoptr i64 %.217 to ptr
   %.226 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.222, ptr nonnull %excinfo.1, ptr %.218, ptr %lsr.iv, i64 %.13)
   switch i32 %.226, label %B258.if.if [
     i32 -2, label %B258.endif
     i32 0, label %B258.endif
-  ], !prof !9
+  ], !prof !8
 
-B422:                                             ; preds = %B258.endif
-  store i64 %.247, ptr %retptr, align 8
+B422:
+  store i64 %.17.i9, ptr %retptr, align 8
   br label %common.ret
 
-B430:                                             ; preds = %B258.endif
-  %sunkaddr84 = getelementptr i8, ptr %arg.r, i64 328
+B430:
   %.274 = load double, ptr %sunkaddr84, align 8
-  %sunkaddr85 = getelementptr i8, ptr %lsr.iv, i64 -8
-  store double %.274, ptr %sunkaddr85, align 8
-  %sunkaddr86 = getelementptr i8, ptr %arg.r, i64 544
-  %.281 = load i64, ptr %sunkaddr86, align 8
+  store double %.274, ptr %arg.strikes.pn, align 8
+  %.281 = load i64, ptr %sunkaddr83, align 8
   %.282 = inttoptr i64 %.281 to ptr
   %scevgep79 = getelementptr i8, ptr %lsr.iv, i64 %0
   %.294 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.290, ptr nonnull %excinfo.2, ptr %.282, ptr %scevgep79, i64 %.13)
   switch i32 %.294, label %B430.if.if [
     i32 -2, label %B48.backedge
     i32 0, label %B48.backedge
-  ], !prof !9
+  ], !prof !8
 
-B48.backedge:                                     ; preds = %B430, %B430
-  %scevgep78 = getelementptr i8, ptr %lsr.iv, i64 %2
-  %lsr.iv.next = add i64 %lsr.iv81, -1
+B48.backedge:
+  %2 = getelementptr i8, ptr %lsr.iv, i64 %1
+  %lsr.iv.next = add nsw i64 %lsr.iv81, -1
   %exitcond.not = icmp eq i64 %lsr.iv.next, 0
   br i1 %exitcond.not, label %B530, label %B50
 
-B530:                                             ; preds = %B48.backedge, %B0.endif
+B530:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B258.endif:                                       ; preds = %B258, %B258
-  %.247 = tail call i64 @land(ptr nonnull %arg.r)
-  %.252.not = icmp eq i64 %.247, 0
+B258.endif:
+  store i64 0, ptr %.3.i4, align 8
+  %.7.i6 = call i32 @_ZN18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i4, ptr nonnull %excinfo.i5, ptr nonnull %arg.r) #0
+  %cond.i7 = icmp eq i32 %.7.i6, 0
+  br i1 %cond.i7, label %land.exit, label %entry.if.i8, !prof !24
+
+entry.if.i8:
+  tail call void @llvm.trap()
+  unreachable
+
+land.exit:
+  %.17.i9 = load i64, ptr %.3.i4, align 8
+  %.252.not = icmp eq i64 %.17.i9, 0
   br i1 %.252.not, label %B430, label %B422
 
-B258.if.if:                                       ; preds = %B258
+B258.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B430.if.if:                                       ; preds = %B430
+B430.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 }
 
-define i64 @stride(ptr %.1, i64 %.2, ptr writeonly %.3) local_unnamed_addr {
+
+define i64 @stride(ptr %.1, i64 %.2, ptr writeonly %.3) local_unnamed_addr #0 {
 entry:
   %.5 = alloca i64, align 8
   store i64 0, ptr %.5, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3) #9
-  %.10 = load ptr, ptr %excinfo, align 8
-  %.19 = load i64, ptr %.5, align 8
-  %.21 = alloca i32, align 4
-  store i32 0, ptr %.21, align 4
+  %.9 = call i32 @_ZN18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3) #0
   %cond = icmp eq i32 %.9, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.17 = icmp sgt i32 %.9, 0
-  call void @numba_gil_ensure(ptr nonnull %.21)
-  br i1 %.17, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.24, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.19, %.24 ], [ %.19, %entry ]
-  ret i64 %common.ret.op
-
-.24:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.72 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.50")
-  call void @PyErr_WriteUnraisable(ptr %.72)
-  call void @Py_DecRef(ptr %.72)
-  call void @numba_gil_release(ptr nonnull %.21)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.27 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.28 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 4
-  %.29 = icmp sgt i32 %.28, 0
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 0
-  %.34 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 1
-  br i1 %.29, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.9, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.24
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.35 = sext i32 %.34 to i64
-  %.36 = call ptr @PyBytes_FromStringAndSize(ptr %.32, i64 %.35)
-  %.37 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 2
-  %.40 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 3
-  %.42 = call ptr %.40(ptr %.38)
-  %.43 = icmp eq ptr %.42, null
-  br i1 %.43, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.56 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 2
-  %.57 = call ptr @numba_unpickle(ptr %.32, i32 %.34, ptr %.56)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.59 = phi ptr [ %.47, %entry.if.if.if.endif ], [ %.57, %entry.if.if.else ]
-  %.60.not = icmp eq ptr %.59, null
-  br i1 %.60.not, label %.24, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.51")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.47 = call ptr @numba_runtime_build_excinfo_struct(ptr %.36, ptr nonnull %.42)
-  call void @NRT_Free(ptr nonnull %.10)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.59)
-  br label %.24
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.24
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.52")
-  br label %.24
+common.ret:
+  %.19 = load i64, ptr %.5, align 8
+  ret i64 %.19
 }
 
-define i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
 B0.endif.endif:
+  %.3.i3 = alloca i64, align 8
+  %excinfo.i4 = alloca ptr, align 8
+  %.3.i = alloca i64, align 8
+  %excinfo.i = alloca ptr, align 8
   %.128 = getelementptr i8, ptr %arg.r, i64 328
   %.158 = getelementptr i8, ptr %arg.r, i64 200
   %.8.i = getelementptr i8, ptr %arg.r, i64 152
   %.130.pre = load double, ptr %.128, align 8
-  %.9.i.pre = load i64, ptr %.8.i, align 8, !noalias !226
+  %.9.i.pre = load i64, ptr %.8.i, align 8, !noalias !269
   %.160.pre = load double, ptr %.158, align 8
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 352
   br label %B46.endif
 
-B190:                                             ; preds = %B46.endif.endif
-  %.197 = tail call i64 @land(ptr nonnull %arg.r)
+B190:
+  store i64 0, ptr %.3.i, align 8
+  %.7.i1 = call i32 @_ZN18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r) #0
+  %cond.i = icmp eq i32 %.7.i1, 0
+  br i1 %cond.i, label %land.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+land.exit:
+  %.17.i2 = load i64, ptr %.3.i, align 8
   br label %B220
 
-B220:                                             ; preds = %B46.endif.endif, %B190
-  %code.2.1 = phi i64 [ %.197, %B190 ], [ %.190, %B46.endif.endif ]
+B220:
+  %code.2.1 = phi i64 [ %.17.i2, %land.exit ], [ %.17.i8, %go_on.exit ]
   %.202.not = icmp eq i64 %code.2.1, 0
   br i1 %.202.not, label %B250.endif, label %common.ret
 
-common.ret:                                       ; preds = %B250.endif, %B348, %B220
+common.ret:
   %.sink = phi i64 [ 0, %B250.endif ], [ %code.2.1, %B220 ], [ 7, %B348 ]
   store i64 %.sink, ptr %retptr, align 8
   ret i32 0
 
-B348:                                             ; preds = %B250.endif
+B348:
   %.88 = icmp samesign ugt i64 %.8798, 1
   br i1 %.88, label %B46.endif, label %common.ret
 
-B46.endif:                                        ; preds = %B348, %B0.endif.endif
+B46.endif:
   %.160 = phi double [ %.160.pre, %B0.endif.endif ], [ %.249, %B348 ]
   %.9.i = phi i64 [ %.9.i.pre, %B0.endif.endif ], [ %.9.i25, %B348 ]
   %.130 = phi double [ %.130.pre, %B0.endif.endif ], [ %.219, %B348 ]
@@ -9672,7 +8725,7 @@ B46.endif:                                        ; preds = %B348, %B0.endif.end
   %.10.i = icmp eq i64 %.9.i, 1
   %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 360, i64 216
   %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
-  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !226
+  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !269
   %.15.i = fsub double %.130, %"$phi52.0.2.0.i"
   %.20.i = fdiv double %.15.i, %.160
   %.21.i = tail call double @llvm.floor.f64(double %.20.i)
@@ -9682,40 +8735,42 @@ B46.endif:                                        ; preds = %B348, %B0.endif.end
   %.61.i = fmul double %.160, %.60.i
   %.63.i = fadd double %"$phi52.0.2.0.i", %.61.i
   %.65.i = fcmp ugt double %.63.i, %.130
-  br i1 %.65.i, label %B46.endif.endif, label %B108.i.preheader
+  br i1 %.65.i, label %B46.endif.endif, label %B108.i
 
-B108.i.preheader:                                 ; preds = %B46.endif
-  %0 = add nuw i64 %.13.i.i, 1
-  br label %B108.i
-
-B108.i:                                           ; preds = %B108.i, %B108.i.preheader
-  %lsr.iv = phi i64 [ %0, %B108.i.preheader ], [ %lsr.iv.next, %B108.i ]
+B108.i:
+  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i ], [ %.13.i.i, %B46.endif ]
+  %lsr.iv = add i64 %lsr.iv.in, 1
   %.74.i = uitofp nneg i64 %lsr.iv to double
   %.75.i = fmul double %.160, %.74.i
   %.77.i = fadd double %"$phi52.0.2.0.i", %.75.i
   %.79.i = fcmp ugt double %.77.i, %.130
-  %lsr.iv.next = add i64 %lsr.iv, 1
   br i1 %.79.i, label %B46.endif.endif, label %B108.i
 
-B46.endif.endif:                                  ; preds = %B108.i, %B46.endif
+B46.endif.endif:
   %.94.pre-phi.i = phi double [ %.63.i, %B46.endif ], [ %.77.i, %B108.i ]
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 352
   store double %.94.pre-phi.i, ptr %sunkaddr, align 8
-  %.190 = tail call i64 @go_on(ptr nonnull %arg.r)
-  %.194 = icmp eq i64 %.190, 9
+  store i64 0, ptr %.3.i3, align 8
+  %.7.i5 = call i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i3, ptr nonnull %excinfo.i4, ptr nonnull %arg.r) #0
+  %cond.i6 = icmp eq i32 %.7.i5, 0
+  br i1 %cond.i6, label %go_on.exit, label %entry.if.i7, !prof !24
+
+entry.if.i7:
+  tail call void @llvm.trap()
+  unreachable
+
+go_on.exit:
+  %.17.i8 = load i64, ptr %.3.i3, align 8
+  %.194 = icmp eq i64 %.17.i8, 9
   br i1 %.194, label %B190, label %B220
 
-B250.endif:                                       ; preds = %B220
-  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 328
-  %.219 = load double, ptr %sunkaddr40, align 8
-  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i25 = load i64, ptr %sunkaddr41, align 8, !noalias !229
+B250.endif:
+  %.219 = load double, ptr %.128, align 8
+  %.9.i25 = load i64, ptr %.8.i, align 8, !noalias !272
   %.10.i26 = icmp eq i64 %.9.i25, 1
   %"$phi52.0.2.0.in.v.i27" = select i1 %.10.i26, i64 360, i64 216
   %"$phi52.0.2.0.in.i28" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i27"
-  %"$phi52.0.2.0.i29" = load double, ptr %"$phi52.0.2.0.in.i28", align 8, !noalias !229
-  %sunkaddr42 = getelementptr i8, ptr %arg.r, i64 200
-  %.249 = load double, ptr %sunkaddr42, align 8
+  %"$phi52.0.2.0.i29" = load double, ptr %"$phi52.0.2.0.in.i28", align 8, !noalias !272
+  %.249 = load double, ptr %.158, align 8
   %.7.i = fsub double %.219, %"$phi52.0.2.0.i29"
   %.11.i = fdiv double %.7.i, %.249
   %.12.i = fadd double %.11.i, 5.000000e-01
@@ -9728,49 +8783,14 @@ B250.endif:                                       ; preds = %B220
   br i1 %.18.i, label %B348, label %common.ret
 }
 
-define i64 @sample(ptr %.1) local_unnamed_addr {
+
+define i64 @sample(ptr %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #9
+  %.7 = call i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
   %.17 = load i64, ptr %.3, align 8
-  %.19 = alloca i32, align 4
-  store i32 0, ptr %.19, align 4
-  %cond = icmp eq i32 %.7, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
-
-entry.if:                                         ; preds = %entry
-  %.15 = icmp sgt i32 %.7, 0
-  call void @numba_gil_ensure(ptr nonnull %.19)
-  br i1 %.15, label %entry.if.if, label %entry.if.endif
-
-common.ret:                                       ; preds = %.22, %entry
   ret i64 %.17
-
-.22:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.endif
-  %.70 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.53")
-  call void @PyErr_WriteUnraisable(ptr %.70)
-  call void @Py_DecRef(ptr %.70)
-  call void @numba_gil_release(ptr nonnull %.19)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  unreachable
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.7, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.22
-  ]
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.22
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.54")
-  br label %.22
 }
 
 define i32 @_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((432, 440)) %arg.r, i64 %arg.law, ptr %arg.out) local_unnamed_addr {
@@ -9784,9 +8804,9 @@ B0:
   switch i32 %.12, label %B0.if.if [
     i32 -2, label %B0.endif
     i32 0, label %B0.endif
-  ], !prof !9
+  ], !prof !8
 
-B0.endif:                                         ; preds = %B0, %B0
+B0.endif:
   %.34 = getelementptr i8, ptr %arg.r, i64 440
   store double 0x7FF0000000000000, ptr %.34, align 8
   %.38 = getelementptr i8, ptr %arg.r, i64 544
@@ -9794,17 +8814,17 @@ B0.endif:                                         ; preds = %B0, %B0
   %.40 = inttoptr i64 %.39 to ptr
   %.45 = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41, ptr nonnull %excinfo.2, ptr %arg.r, ptr %.40)
   %cond = icmp eq i32 %.45, 0
-  br i1 %cond, label %B0.endif.endif, label %B0.endif.if.if, !prof !8
+  br i1 %cond, label %B0.endif.endif, label %B0.endif.if.if, !prof !24
 
-common.ret:                                       ; preds = %B0.endif.if.if, %B0.endif.endif, %B0.if.if
+common.ret:
   %common.ret.op = phi i32 [ %.12, %B0.if.if ], [ 0, %B0.endif.endif ], [ %.45, %B0.endif.if.if ]
   ret i32 %common.ret.op
 
-B0.if.if:                                         ; preds = %B0
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B0.endif.endif:                                   ; preds = %B0.endif
+B0.endif.endif:
   %.65 = getelementptr i8, ptr %arg.r, i64 256
   %.66 = load i64, ptr %.65, align 8
   %.67 = inttoptr i64 %.66 to ptr
@@ -9816,7 +8836,7 @@ B0.endif.endif:                                   ; preds = %B0.endif
   store ptr null, ptr %retptr, align 8
   br label %common.ret
 
-B0.endif.if.if:                                   ; preds = %B0.endif
+B0.endif.if.if:
   %.53 = icmp sgt i32 %.45, 0
   %.46 = load ptr, ptr %excinfo.2, align 8
   %.54 = select i1 %.53, ptr %.46, ptr undef
@@ -9824,95 +8844,52 @@ B0.endif.if.if:                                   ; preds = %B0.endif
   br label %common.ret
 }
 
-define ptr @look(ptr initializes((432, 440)) %.1, i64 %.2, ptr %.3) local_unnamed_addr {
+
+define noalias ptr @look(ptr initializes((432, 440)) %.1, i64 %.2, ptr %.3) local_unnamed_addr #0 {
 entry:
-  %.5 = alloca ptr, align 8
-  store ptr null, ptr %.5, align 8
-  %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3) #9
-  %.10 = load ptr, ptr %excinfo, align 8
-  %.19 = load ptr, ptr %.5, align 8
-  %.21 = alloca i32, align 4
-  store i32 0, ptr %.21, align 4
-  %cond = icmp eq i32 %.9, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  %.8.i = alloca ptr, align 8
+  %excinfo.1.i = alloca ptr, align 8
+  %.41.i = alloca ptr, align 8
+  %excinfo.2.i = alloca ptr, align 8
+  store ptr null, ptr %excinfo.2.i, align 8, !noalias !275
+  %.12.i = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.8.i, ptr nonnull %excinfo.1.i, ptr %.1), !noalias !275
+  switch i32 %.12.i, label %entry.if [
+    i32 -2, label %B0.endif.i
+    i32 0, label %B0.endif.i
+  ], !prof !8
 
-entry.if:                                         ; preds = %entry
-  %.17 = icmp sgt i32 %.9, 0
-  call void @numba_gil_ensure(ptr nonnull %.21)
-  br i1 %.17, label %entry.if.if, label %entry.if.endif
+B0.endif.i:
+  %.34.i = getelementptr i8, ptr %.1, i64 440
+  store double 0x7FF0000000000000, ptr %.34.i, align 8, !noalias !275
+  %.38.i = getelementptr i8, ptr %.1, i64 544
+  %.39.i = load i64, ptr %.38.i, align 8, !noalias !275
+  %.40.i = inttoptr i64 %.39.i to ptr
+  %.45.i = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41.i, ptr nonnull %excinfo.2.i, ptr %.1, ptr %.40.i) #0, !noalias !275
+  %cond.i = icmp eq i32 %.45.i, 0
+  br i1 %cond.i, label %_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a.exit, label %entry.if, !prof !24
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.24, %entry
-  %common.ret.op = phi ptr [ null, %entry.if.if.if.if ], [ %.19, %.24 ], [ %.19, %entry ]
-  ret ptr %common.ret.op
+_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a.exit:
+  %.65.i = getelementptr i8, ptr %.1, i64 256
+  %.66.i = load i64, ptr %.65.i, align 8, !noalias !275
+  %.67.i = inttoptr i64 %.66.i to ptr
+  %.68.i = getelementptr i8, ptr %.1, i64 488
+  %.69.i = load i64, ptr %.68.i, align 8, !noalias !275
+  %.70.i = inttoptr i64 %.69.i to ptr
+  %.71.i = inttoptr i64 %.2 to ptr
+  call void %.71.i(ptr %.67.i, ptr %.70.i, ptr %.3) #0, !noalias !275
+  ret ptr null
 
-.24:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.72 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.55")
-  call void @PyErr_WriteUnraisable(ptr %.72)
-  call void @Py_DecRef(ptr %.72)
-  call void @numba_gil_release(ptr nonnull %.21)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.27 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.28 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 4
-  %.29 = icmp sgt i32 %.28, 0
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 0
-  %.34 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 1
-  br i1 %.29, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.9, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.24
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.35 = sext i32 %.34 to i64
-  %.36 = call ptr @PyBytes_FromStringAndSize(ptr %.32, i64 %.35)
-  %.37 = load { ptr, i32, ptr, ptr, i32 }, ptr %.10, align 8
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 2
-  %.40 = extractvalue { ptr, i32, ptr, ptr, i32 } %.37, 3
-  %.42 = call ptr %.40(ptr %.38)
-  %.43 = icmp eq ptr %.42, null
-  br i1 %.43, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.56 = extractvalue { ptr, i32, ptr, ptr, i32 } %.27, 2
-  %.57 = call ptr @numba_unpickle(ptr %.32, i32 %.34, ptr %.56)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.59 = phi ptr [ %.47, %entry.if.if.if.endif ], [ %.57, %entry.if.if.else ]
-  %.60.not = icmp eq ptr %.59, null
-  br i1 %.60.not, label %.24, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.56")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.47 = call ptr @numba_runtime_build_excinfo_struct(ptr %.36, ptr nonnull %.42)
-  call void @NRT_Free(ptr nonnull %.10)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.59)
-  br label %.24
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.24
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.57")
-  br label %.24
+entry.if:
+  call void @llvm.trap()
+  unreachable
 }
 
-define i32 @_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.x, double %arg.z) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.x, double %arg.z) local_unnamed_addr #0 {
 B0:
+  %.3.i = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %excinfo.i = alloca ptr, align 8
   %.14 = getelementptr i8, ptr %arg.r, i64 320
   %.15 = load i64, ptr %.14, align 8
   %.16 = inttoptr i64 %.15 to ptr
@@ -9920,21 +8897,19 @@ B0:
   %.24 = fcmp une double %arg.x, %.22
   br i1 %.24, label %B66, label %B42
 
-B42:                                              ; preds = %B0
-  %0 = inttoptr i64 %.15 to ptr
-  %.27 = getelementptr i8, ptr %0, i64 8
+B42:
+  %.27 = getelementptr i8, ptr %.16, i64 8
   %.28 = load double, ptr %.27, align 8
   %.30 = fcmp une double %arg.z, %.28
   br i1 %.30, label %B66, label %common.ret
 
-B66:                                              ; preds = %B42, %B0
+B66:
   %.33 = getelementptr i8, ptr %arg.r, i64 64
   %.34 = load i64, ptr %.33, align 8
   %.35.not = icmp eq i64 %.34, 0
   br i1 %.35.not, label %B202.endif, label %B88
 
-B88:                                              ; preds = %B66
-  %1 = inttoptr i64 %.15 to ptr
+B88:
   %.38 = getelementptr i8, ptr %arg.r, i64 328
   %.40 = load double, ptr %.38, align 8
   %.42 = getelementptr i8, ptr %arg.r, i64 544
@@ -9943,24 +8918,31 @@ B88:                                              ; preds = %B66
   %.46 = getelementptr i8, ptr %arg.r, i64 552
   %.47 = load i64, ptr %.46, align 8
   %.48 = inttoptr i64 %.47 to ptr
-  %.50 = tail call ptr @node(ptr nonnull %arg.r, double %.40, ptr %.44, ptr %.48)
-  %.110.pre = load double, ptr %1, align 8
+  %.10.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.40, ptr readonly %.44, ptr readonly %.48) #0
+  %cond.i = icmp eq i32 %.10.i, 0
+  br i1 %cond.i, label %node.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  tail call void @llvm.trap()
+  unreachable
+
+node.exit:
+  %.110.pre = load double, ptr %.16, align 8
   br label %B202.endif
 
-B252:                                             ; preds = %B202.endif
-  %2 = inttoptr i64 %.15 to ptr
-  %.123 = getelementptr i8, ptr %2, i64 8
+B252:
+  %.123 = getelementptr i8, ptr %.16, i64 8
   %.124 = load double, ptr %.123, align 8
   %.125 = fcmp une double %.124, 0.000000e+00
   %.neg = sext i1 %.125 to i64
   br label %B274.endif
 
-common.ret:                                       ; preds = %B274.endif, %B42
+common.ret:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
-B202.endif:                                       ; preds = %B88, %B66
-  %.110 = phi double [ %.22, %B66 ], [ %.110.pre, %B88 ]
+B202.endif:
+  %.110 = phi double [ %.22, %B66 ], [ %.110.pre, %node.exit ]
   %.53 = getelementptr i8, ptr %arg.r, i64 184
   %.54 = load i64, ptr %.53, align 8
   %.56 = fcmp une double %arg.x, 0.000000e+00
@@ -9970,66 +8952,104 @@ B202.endif:                                       ; preds = %B88, %B66
   %.111 = fcmp une double %.110, 0.000000e+00
   br i1 %.111, label %B274.endif, label %B252
 
-B274.endif:                                       ; preds = %B202.endif, %B252
+B274.endif:
   %"$phi274.5.2.0.neg" = phi i64 [ -1, %B202.endif ], [ %.neg, %B252 ]
-  %3 = inttoptr i64 %.15 to ptr
   %.160 = add i64 %.54, %.15.i
   %.164 = add i64 %.160, %"$phi274.5.2.0.neg"
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 184
-  store i64 %.164, ptr %sunkaddr, align 8
-  store double %arg.x, ptr %3, align 8
-  %.180 = getelementptr i8, ptr %3, i64 8
+  store i64 %.164, ptr %.53, align 8
+  store double %arg.x, ptr %.16, align 8
+  %.180 = getelementptr i8, ptr %.16, i64 8
   store double %arg.z, ptr %.180, align 8
-  %.187 = tail call ptr @load_of(ptr nonnull %arg.r)
+  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0
   br label %common.ret
 }
 
-define ptr @push(ptr %.1, double %.2, double %.3) local_unnamed_addr {
+
+define noalias ptr @push(ptr %.1, double %.2, double %.3) local_unnamed_addr #0 {
 entry:
-  %.5 = alloca ptr, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull poison, ptr %.1, double %.2, double %.3) #9
-  %.19 = load ptr, ptr %.5, align 8
-  %.21 = alloca i32, align 4
-  store i32 0, ptr %.21, align 4
-  %cond = icmp eq i32 %.9, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  %.3.i.i = alloca ptr, align 8
+  %.6.i.i = alloca ptr, align 8
+  %excinfo.i.i = alloca ptr, align 8
+  %.14.i = getelementptr i8, ptr %.1, i64 320
+  %.15.i = load i64, ptr %.14.i, align 8, !noalias !279
+  %.16.i = inttoptr i64 %.15.i to ptr
+  %.22.i = load double, ptr %.16.i, align 8, !noalias !279
+  %.24.i = fcmp une double %.2, %.22.i
+  br i1 %.24.i, label %B66.i, label %B42.i
 
-entry.if:                                         ; preds = %entry
-  %.17 = icmp sgt i32 %.9, 0
-  call void @numba_gil_ensure(ptr nonnull %.21)
-  br i1 %.17, label %entry.if.if, label %entry.if.endif
+B42.i:
+  %.27.i = getelementptr i8, ptr %.16.i, i64 8
+  %.28.i = load double, ptr %.27.i, align 8, !noalias !279
+  %.30.i = fcmp une double %.3, %.28.i
+  br i1 %.30.i, label %B66.i, label %_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add.exit
 
-common.ret:                                       ; preds = %.24, %entry
-  ret ptr %.19
+B66.i:
+  %.33.i = getelementptr i8, ptr %.1, i64 64
+  %.34.i = load i64, ptr %.33.i, align 8, !noalias !279
+  %.35.not.i = icmp eq i64 %.34.i, 0
+  br i1 %.35.not.i, label %B202.endif.i, label %B88.i
 
-.24:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.endif
-  %.72 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.58")
-  call void @PyErr_WriteUnraisable(ptr %.72)
-  call void @Py_DecRef(ptr %.72)
-  call void @numba_gil_release(ptr nonnull %.21)
-  br label %common.ret
+B88.i:
+  %.38.i = getelementptr i8, ptr %.1, i64 328
+  %.40.i = load double, ptr %.38.i, align 8, !noalias !279
+  %.42.i = getelementptr i8, ptr %.1, i64 544
+  %.43.i = load i64, ptr %.42.i, align 8, !noalias !279
+  %.44.i = inttoptr i64 %.43.i to ptr
+  %.46.i = getelementptr i8, ptr %.1, i64 552
+  %.47.i = load i64, ptr %.46.i, align 8, !noalias !279
+  %.48.i = inttoptr i64 %.47.i to ptr
+  %.10.i.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i.i, ptr nonnull %excinfo.i.i, ptr nonnull %.1, double %.40.i, ptr readonly %.44.i, ptr readonly %.48.i) #0, !noalias !279
+  %cond.i.i = icmp eq i32 %.10.i.i, 0
+  br i1 %cond.i.i, label %node.exit.i, label %entry.if.i.i, !prof !24
 
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
+entry.if.i.i:
+  tail call void @llvm.trap()
   unreachable
 
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.9, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.24
-  ]
+node.exit.i:
+  %.110.pre.i = load double, ptr %.16.i, align 8, !noalias !279
+  br label %B202.endif.i
 
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.24
+B252.i:
+  %.123.i = getelementptr i8, ptr %.16.i, i64 8
+  %.124.i = load double, ptr %.123.i, align 8, !noalias !279
+  %.125.i = fcmp une double %.124.i, 0.000000e+00
+  %.neg.i = sext i1 %.125.i to i64
+  br label %B274.endif.i
 
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.59")
-  br label %.24
+B202.endif.i:
+  %.110.i = phi double [ %.22.i, %B66.i ], [ %.110.pre.i, %node.exit.i ]
+  %.53.i = getelementptr i8, ptr %.1, i64 184
+  %.54.i = load i64, ptr %.53.i, align 8, !noalias !279
+  %.56.i = fcmp une double %.2, 0.000000e+00
+  %.72.i = fcmp une double %.3, 0.000000e+00
+  %"$phi202.4.2.0.i" = select i1 %.56.i, i1 true, i1 %.72.i
+  %.15.i.i = zext i1 %"$phi202.4.2.0.i" to i64
+  %.111.i = fcmp une double %.110.i, 0.000000e+00
+  br i1 %.111.i, label %B274.endif.i, label %B252.i
+
+B274.endif.i:
+  %"$phi274.5.2.0.neg.i" = phi i64 [ -1, %B202.endif.i ], [ %.neg.i, %B252.i ]
+  %.160.i = add i64 %.54.i, %.15.i.i
+  %.164.i = add i64 %.160.i, %"$phi274.5.2.0.neg.i"
+  store i64 %.164.i, ptr %.53.i, align 8, !noalias !279
+  store double %.2, ptr %.16.i, align 8, !noalias !279
+  %.180.i = getelementptr i8, ptr %.16.i, i64 8
+  store double %.3, ptr %.180.i, align 8, !noalias !279
+  %.7.i.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i.i, ptr nonnull poison, ptr nonnull readonly %.1) #0, !noalias !279
+  br label %_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add.exit
+
+_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add.exit:
+  ret ptr null
 }
 
-define i32 @_ZN18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.inputs, ptr writeonly %arg.states, ptr %arg.codes, ptr writeonly %arg.impacts) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.inputs, ptr writeonly %arg.states, ptr %arg.codes, ptr writeonly %arg.impacts) local_unnamed_addr #0 {
 B0.endif:
+  %.3.i = alloca i64, align 8
+  %.3.i.i.i = alloca ptr, align 8
+  %.6.i.i.i = alloca ptr, align 8
+  %excinfo.i.i.i = alloca ptr, align 8
   %.198 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.370 = alloca ptr, align 8
@@ -10037,33 +9057,31 @@ B0.endif:
   %.10887.not = icmp slt i64 %arg.count, 1
   br i1 %.10887.not, label %B708, label %B42.preheader
 
-B42.preheader:                                    ; preds = %B0.endif
+B42.preheader:
   %scevgep = getelementptr i8, ptr %arg.states, i64 16
   %0 = shl i64 %arg.width, 3
   br label %B42
 
-B42:                                              ; preds = %B704, %B42.preheader
+B42:
   %lsr.iv = phi ptr [ %scevgep, %B42.preheader ], [ %scevgep13, %B704 ]
-  %over.2.090 = phi i64 [ %over.3.1, %B704 ], [ 0, %B42.preheader ]
-  %.1148388 = phi i64 [ %.121, %B704 ], [ 0, %B42.preheader ]
+  %over.2.090 = phi i64 [ 0, %B42.preheader ], [ %over.3.1, %B704 ]
+  %.1148388 = phi i64 [ 0, %B42.preheader ], [ %.121, %B704 ]
   %.121 = add nuw nsw i64 %.1148388, 1
   %1 = shl i64 %.1148388, 3
   %scevgep18 = getelementptr i8, ptr %arg.impacts, i64 %1
   store i64 -1, ptr %scevgep18, align 8
-  %2 = shl i64 %.1148388, 3
-  %scevgep17 = getelementptr i8, ptr %arg.codes, i64 %2
+  %scevgep17 = getelementptr i8, ptr %arg.codes, i64 %1
   %.160 = load i64, ptr %scevgep17, align 8
   %.161 = icmp eq i64 %.160, 0
   br i1 %.161, label %B90, label %B704
 
-B90:                                              ; preds = %B42
-  %3 = shl i64 %.1148388, 3
-  %scevgep16 = getelementptr i8, ptr %arg.walks, i64 %3
+B90:
+  %scevgep16 = getelementptr i8, ptr %arg.walks, i64 %1
   %.169 = load i64, ptr %scevgep16, align 8
   %.170.not = icmp eq i64 %.169, 0
   br i1 %.170.not, label %B704, label %B116
 
-B116:                                             ; preds = %B90
+B116:
   %.178 = inttoptr i64 %.169 to ptr
   %.183 = getelementptr i8, ptr %.178, i64 88
   %.184 = load i64, ptr %.183, align 8
@@ -10077,188 +9095,184 @@ B116:                                             ; preds = %B90
   switch i32 %.202, label %B116.if.if [
     i32 -2, label %B116.endif.endif
     i32 0, label %B116.endif.endif
-  ], !prof !9
+  ], !prof !8
 
-B490:                                             ; preds = %B116.endif.endif
-  %sunkaddr = mul i64 %.1148388, 8
-  %sunkaddr19 = getelementptr i8, ptr %arg.codes, i64 %sunkaddr
-  %.299 = load i64, ptr %sunkaddr19, align 8
+B490:
+  %.299 = load i64, ptr %scevgep17, align 8
   %.300 = icmp ne i64 %.299, 0
-  %4 = zext i1 %.300 to i64
+  %2 = zext i1 %.300 to i64
   br label %B522.endif
 
-B704:                                             ; preds = %B522.endif, %B522.endif, %B90, %B42
+B704:
   %over.3.1 = phi i64 [ %over.2.090, %B42 ], [ %over.2.090, %B90 ], [ %.335, %B522.endif ], [ %.335, %B522.endif ]
   %scevgep13 = getelementptr i8, ptr %lsr.iv, i64 %0
   %exitcond.not = icmp eq i64 %arg.count, %.121
   br i1 %exitcond.not, label %B708, label %B42
 
-common.ret:                                       ; preds = %B522.endif.if.if, %B116.if.if, %B708
+common.ret:
   %common.ret.op = phi i32 [ 0, %B708 ], [ %.202, %B116.if.if ], [ %.374, %B522.endif.if.if ]
   ret i32 %common.ret.op
 
-B708:                                             ; preds = %B704, %B0.endif
+B708:
   %over.2.0.lcssa = phi i64 [ 0, %B0.endif ], [ %over.3.1, %B704 ]
   store i64 %over.2.0.lcssa, ptr %retptr, align 8
   br label %common.ret
 
-B116.if.if:                                       ; preds = %B116
+B116.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B116.endif.endif:                                 ; preds = %B116, %B116
-  %5 = inttoptr i64 %.169 to ptr
-  %sunkaddr20 = inttoptr i64 %.169 to ptr
-  %sunkaddr21 = getelementptr i8, ptr %sunkaddr20, i64 88
-  %.224 = load i64, ptr %sunkaddr21, align 8
+B116.endif.endif:
+  %.224 = load i64, ptr %.183, align 8
   %.225 = getelementptr double, ptr %.189, i64 %.224
   %.226 = load double, ptr %.225, align 8
   %.231 = getelementptr i8, ptr %.225, i64 8
   %.232 = load double, ptr %.231, align 8
-  %.234 = tail call ptr @push(ptr nonnull %5, double %.226, double %.232)
-  %.236 = getelementptr i8, ptr %5, i64 336
+  %.14.i.i = getelementptr i8, ptr %.178, i64 320
+  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !282
+  %.16.i.i = inttoptr i64 %.15.i.i to ptr
+  %.22.i.i = load double, ptr %.16.i.i, align 8, !noalias !282
+  %.24.i.i = fcmp une double %.226, %.22.i.i
+  br i1 %.24.i.i, label %B66.i.i, label %B42.i.i
+
+B42.i.i:
+  %.27.i.i = getelementptr i8, ptr %.16.i.i, i64 8
+  %.28.i.i = load double, ptr %.27.i.i, align 8, !noalias !282
+  %.30.i.i = fcmp une double %.232, %.28.i.i
+  br i1 %.30.i.i, label %B66.i.i, label %push.exit
+
+B66.i.i:
+  %.33.i.i = getelementptr i8, ptr %.178, i64 64
+  %.34.i.i = load i64, ptr %.33.i.i, align 8, !noalias !282
+  %.35.not.i.i = icmp eq i64 %.34.i.i, 0
+  br i1 %.35.not.i.i, label %B202.endif.i.i, label %B88.i.i
+
+B88.i.i:
+  %.38.i.i = getelementptr i8, ptr %.178, i64 328
+  %.40.i.i = load double, ptr %.38.i.i, align 8, !noalias !282
+  %.42.i.i = getelementptr i8, ptr %.178, i64 544
+  %.43.i.i = load i64, ptr %.42.i.i, align 8, !noalias !282
+  %.44.i.i = inttoptr i64 %.43.i.i to ptr
+  %.46.i.i = getelementptr i8, ptr %.178, i64 552
+  %.47.i.i = load i64, ptr %.46.i.i, align 8, !noalias !282
+  %.48.i.i = inttoptr i64 %.47.i.i to ptr
+  %.10.i.i.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i.i.i, ptr nonnull %excinfo.i.i.i, ptr nonnull %.178, double %.40.i.i, ptr readonly %.44.i.i, ptr readonly %.48.i.i) #0, !noalias !282
+  %cond.i.i.i = icmp eq i32 %.10.i.i.i, 0
+  br i1 %cond.i.i.i, label %node.exit.i.i, label %entry.if.i.i.i, !prof !24
+
+entry.if.i.i.i:
+  tail call void @llvm.trap()
+  unreachable
+
+node.exit.i.i:
+  %.110.pre.i.i = load double, ptr %.16.i.i, align 8, !noalias !282
+  br label %B202.endif.i.i
+
+B252.i.i:
+  %.123.i.i = getelementptr i8, ptr %.16.i.i, i64 8
+  %.124.i.i = load double, ptr %.123.i.i, align 8, !noalias !282
+  %.125.i.i = fcmp une double %.124.i.i, 0.000000e+00
+  %.neg.i.i = sext i1 %.125.i.i to i64
+  br label %B274.endif.i.i
+
+B202.endif.i.i:
+  %.110.i.i = phi double [ %.22.i.i, %B66.i.i ], [ %.110.pre.i.i, %node.exit.i.i ]
+  %.53.i.i = getelementptr i8, ptr %.178, i64 184
+  %.54.i.i = load i64, ptr %.53.i.i, align 8, !noalias !282
+  %.56.i.i = fcmp une double %.226, 0.000000e+00
+  %.72.i.i = fcmp une double %.232, 0.000000e+00
+  %"$phi202.4.2.0.i.i" = select i1 %.56.i.i, i1 true, i1 %.72.i.i
+  %.15.i.i.i = zext i1 %"$phi202.4.2.0.i.i" to i64
+  %.111.i.i = fcmp une double %.110.i.i, 0.000000e+00
+  br i1 %.111.i.i, label %B274.endif.i.i, label %B252.i.i
+
+B274.endif.i.i:
+  %"$phi274.5.2.0.neg.i.i" = phi i64 [ -1, %B202.endif.i.i ], [ %.neg.i.i, %B252.i.i ]
+  %.160.i.i = add i64 %.54.i.i, %.15.i.i.i
+  %.164.i.i = add i64 %.160.i.i, %"$phi274.5.2.0.neg.i.i"
+  store i64 %.164.i.i, ptr %.53.i.i, align 8, !noalias !282
+  store double %.226, ptr %.16.i.i, align 8, !noalias !282
+  %.180.i.i = getelementptr i8, ptr %.16.i.i, i64 8
+  store double %.232, ptr %.180.i.i, align 8, !noalias !282
+  %.7.i.i.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i.i.i, ptr nonnull poison, ptr nonnull readonly %.178) #0, !noalias !282
+  br label %push.exit
+
+push.exit:
+  %.236 = getelementptr i8, ptr %.178, i64 336
   %.238 = load double, ptr %.236, align 8
-  %.240 = tail call i64 @sample(ptr nonnull %5)
-  %sunkaddr22 = mul i64 %.1148388, 8
-  %sunkaddr23 = getelementptr i8, ptr %arg.codes, i64 %sunkaddr22
-  store i64 %.240, ptr %sunkaddr23, align 8
+  store i64 0, ptr %.3.i, align 8
+  %.7.i = call i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull %.178) #0
+  %.17.i = load i64, ptr %.3.i, align 8
+  store i64 %.17.i, ptr %scevgep17, align 8
   %.248 = load double, ptr %.236, align 8
   %.249 = fsub double %.248, %.238
   %.5.i = fptosi double %.249 to i64
-  %sunkaddr24 = mul i64 %.1148388, 8
-  %sunkaddr25 = getelementptr i8, ptr %arg.impacts, i64 %sunkaddr24
-  store i64 %.5.i, ptr %sunkaddr25, align 8
+  store i64 %.5.i, ptr %scevgep18, align 8
   %.282 = icmp sgt i64 %.5.i, 0
   br i1 %.282, label %B522.endif, label %B490
 
-B522.endif:                                       ; preds = %B116.endif.endif, %B490
-  %"$phi522.4.2.2" = phi i64 [ 1, %B116.endif.endif ], [ %4, %B490 ]
-  %6 = inttoptr i64 %.169 to ptr
+B522.endif:
+  %"$phi522.4.2.2" = phi i64 [ 1, %push.exit ], [ %2, %B490 ]
   %.335 = add nsw i64 %"$phi522.4.2.2", %over.2.090
   %scevgep15 = getelementptr i8, ptr %lsr.iv, i64 -16
-  %.348 = getelementptr i8, ptr %6, i64 328
+  %.348 = getelementptr i8, ptr %.178, i64 328
   %.350 = load double, ptr %.348, align 8
-  %sunkaddr26 = inttoptr i64 %.169 to ptr
-  %sunkaddr27 = getelementptr i8, ptr %sunkaddr26, i64 336
-  %.354 = load double, ptr %sunkaddr27, align 8
+  %.354 = load double, ptr %.236, align 8
   store double %.350, ptr %scevgep15, align 8
   %scevgep14 = getelementptr i8, ptr %lsr.iv, i64 -8
   store double %.354, ptr %scevgep14, align 8
-  %.361 = getelementptr i8, ptr %6, i64 544
+  %.361 = getelementptr i8, ptr %.178, i64 544
   %.362 = load i64, ptr %.361, align 8
   %.363 = inttoptr i64 %.362 to ptr
-  %.366 = getelementptr i8, ptr %6, i64 80
+  %.366 = getelementptr i8, ptr %.178, i64 80
   %.367 = load i64, ptr %.366, align 8
   %.374 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.370, ptr nonnull %excinfo.4, ptr %.363, ptr %lsr.iv, i64 %.367)
   switch i32 %.374, label %B522.endif.if.if [
     i32 -2, label %B704
     i32 0, label %B704
-  ], !prof !9
+  ], !prof !8
 
-B522.endif.if.if:                                 ; preds = %B522.endif
+B522.endif.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 }
 
-define i64 @samples(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr writeonly %.5, ptr %.6, ptr writeonly %.7) local_unnamed_addr {
+
+define i64 @samples(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr writeonly %.5, ptr %.6, ptr writeonly %.7) local_unnamed_addr #0 {
 entry:
   %.9 = alloca i64, align 8
   store i64 0, ptr %.9, align 8
   %excinfo = alloca ptr, align 8
-  store ptr null, ptr %excinfo, align 8
-  %.13 = call i32 @_ZN18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a(ptr nonnull %.9, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5, ptr %.6, ptr %.7) #9
-  %.14 = load ptr, ptr %excinfo, align 8
-  %.23 = load i64, ptr %.9, align 8
-  %.25 = alloca i32, align 4
-  store i32 0, ptr %.25, align 4
+  %.13 = call i32 @_ZN18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a(ptr nonnull %.9, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5, ptr %.6, ptr %.7) #0
   %cond = icmp eq i32 %.13, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !8
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
-entry.if:                                         ; preds = %entry
-  %.21 = icmp sgt i32 %.13, 0
-  call void @numba_gil_ensure(ptr nonnull %.25)
-  br i1 %.21, label %entry.if.if, label %entry.if.endif
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
 
-common.ret:                                       ; preds = %entry.if.if.if.if, %.28, %entry
-  %common.ret.op = phi i64 [ 0, %entry.if.if.if.if ], [ %.23, %.28 ], [ %.23, %entry ]
-  ret i64 %common.ret.op
-
-.28:                                              ; preds = %entry.if.endif.endif.endif, %entry.if.endif.if, %entry.if.if.endif.if, %entry.if.if.endif, %entry.if.endif
-  %.76 = call ptr @PyUnicode_FromString(ptr nonnull @".const.<numba.core.cpu.CPUContext>.60")
-  call void @PyErr_WriteUnraisable(ptr %.76)
-  call void @Py_DecRef(ptr %.76)
-  call void @numba_gil_release(ptr nonnull %.25)
-  br label %common.ret
-
-entry.if.if:                                      ; preds = %entry.if
-  call void @PyErr_Clear()
-  %.31 = load { ptr, i32, ptr, ptr, i32 }, ptr %.14, align 8
-  %.32 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 4
-  %.33 = icmp sgt i32 %.32, 0
-  %.36 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 0
-  %.38 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 1
-  br i1 %.33, label %entry.if.if.if, label %entry.if.if.else
-
-entry.if.endif:                                   ; preds = %entry.if
-  switch i32 %.13, label %entry.if.endif.endif.endif [
-    i32 -3, label %entry.if.endif.if
-    i32 -1, label %.28
-  ]
-
-entry.if.if.if:                                   ; preds = %entry.if.if
-  %.39 = sext i32 %.38 to i64
-  %.40 = call ptr @PyBytes_FromStringAndSize(ptr %.36, i64 %.39)
-  %.41 = load { ptr, i32, ptr, ptr, i32 }, ptr %.14, align 8
-  %.42 = extractvalue { ptr, i32, ptr, ptr, i32 } %.41, 2
-  %.44 = extractvalue { ptr, i32, ptr, ptr, i32 } %.41, 3
-  %.46 = call ptr %.44(ptr %.42)
-  %.47 = icmp eq ptr %.46, null
-  br i1 %.47, label %entry.if.if.if.if, label %entry.if.if.if.endif, !prof !25
-
-entry.if.if.else:                                 ; preds = %entry.if.if
-  %.60 = extractvalue { ptr, i32, ptr, ptr, i32 } %.31, 2
-  %.61 = call ptr @numba_unpickle(ptr %.36, i32 %.38, ptr %.60)
-  br label %entry.if.if.endif
-
-entry.if.if.endif:                                ; preds = %entry.if.if.if.endif, %entry.if.if.else
-  %.63 = phi ptr [ %.51, %entry.if.if.if.endif ], [ %.61, %entry.if.if.else ]
-  %.64.not = icmp eq ptr %.63, null
-  br i1 %.64.not, label %.28, label %entry.if.if.endif.if, !prof !25
-
-entry.if.if.if.if:                                ; preds = %entry.if.if.if
-  call void @PyErr_SetString(ptr nonnull @PyExc_RuntimeError, ptr nonnull @".const.Error creating Python tuple from runtime exception arguments.61")
-  br label %common.ret
-
-entry.if.if.if.endif:                             ; preds = %entry.if.if.if
-  %.51 = call ptr @numba_runtime_build_excinfo_struct(ptr %.40, ptr nonnull %.46)
-  call void @NRT_Free(ptr nonnull %.14)
-  br label %entry.if.if.endif
-
-entry.if.if.endif.if:                             ; preds = %entry.if.if.endif
-  call void @numba_do_raise(ptr nonnull %.63)
-  br label %.28
-
-entry.if.endif.if:                                ; preds = %entry.if.endif
-  call void @PyErr_SetNone(ptr nonnull @PyExc_StopIteration)
-  br label %.28
-
-entry.if.endif.endif.endif:                       ; preds = %entry.if.endif
-  call void @PyErr_SetString(ptr nonnull @PyExc_SystemError, ptr nonnull @".const.unknown error when calling native function.62")
-  br label %.28
+common.ret:
+  %.23 = load i64, ptr %.9, align 8
+  ret i64 %.23
 }
 
-define i32 @_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.laws, ptr %arg.views) local_unnamed_addr {
+
+define i32 @_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.laws, ptr %arg.views) local_unnamed_addr #0 {
 B0.endif:
+  %.8.i.i = alloca ptr, align 8
+  %excinfo.1.i.i = alloca ptr, align 8
+  %.41.i.i = alloca ptr, align 8
+  %excinfo.2.i.i = alloca ptr, align 8
   %.9847.not = icmp slt i64 %arg.count, 1
   br i1 %.9847.not, label %B182, label %B36.preheader
 
-B36.preheader:                                    ; preds = %B0.endif
+B36.preheader:
   %0 = shl i64 %arg.width, 3
   br label %B36
 
-B36:                                              ; preds = %B180, %B36.preheader
+B36:
   %lsr.iv = phi ptr [ %arg.views, %B36.preheader ], [ %scevgep, %B180 ]
-  %.1044648 = phi i64 [ %.111, %B180 ], [ 0, %B36.preheader ]
+  %.1044648 = phi i64 [ 0, %B36.preheader ], [ %.111, %B180 ]
   %.111 = add nuw nsw i64 %.1044648, 1
   %1 = shl i64 %.1044648, 3
   %scevgep2 = getelementptr i8, ptr %arg.walks, i64 %1
@@ -10266,32 +9280,130 @@ B36:                                              ; preds = %B180, %B36.preheade
   %.143.not = icmp eq i64 %.142, 0
   br i1 %.143.not, label %B180, label %B62
 
-B62:                                              ; preds = %B36
+B62:
   %.149 = inttoptr i64 %.142 to ptr
-  %2 = shl i64 %.1044648, 3
-  %scevgep1 = getelementptr i8, ptr %arg.laws, i64 %2
+  %scevgep1 = getelementptr i8, ptr %arg.laws, i64 %1
   %.153 = load i64, ptr %scevgep1, align 8
-  %.161 = tail call ptr @look(ptr nonnull %.149, i64 %.153, ptr %lsr.iv)
+  store ptr null, ptr %excinfo.2.i.i, align 8, !noalias !285
+  %.12.i.i = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.8.i.i, ptr nonnull %excinfo.1.i.i, ptr nonnull %.149), !noalias !285
+  switch i32 %.12.i.i, label %entry.if.i [
+    i32 -2, label %B0.endif.i.i
+    i32 0, label %B0.endif.i.i
+  ], !prof !8
+
+B0.endif.i.i:
+  %.34.i.i = getelementptr i8, ptr %.149, i64 440
+  store double 0x7FF0000000000000, ptr %.34.i.i, align 8, !noalias !285
+  %.38.i.i = getelementptr i8, ptr %.149, i64 544
+  %.39.i.i = load i64, ptr %.38.i.i, align 8, !noalias !285
+  %.40.i.i = inttoptr i64 %.39.i.i to ptr
+  %.45.i.i = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41.i.i, ptr nonnull %excinfo.2.i.i, ptr nonnull %.149, ptr %.40.i.i) #0, !noalias !285
+  %cond.i.i = icmp eq i32 %.45.i.i, 0
+  br i1 %cond.i.i, label %look.exit, label %entry.if.i, !prof !24
+
+entry.if.i:
+  call void @llvm.trap()
+  unreachable
+
+look.exit:
+  %.65.i.i = getelementptr i8, ptr %.149, i64 256
+  %.66.i.i = load i64, ptr %.65.i.i, align 8, !noalias !285
+  %.67.i.i = inttoptr i64 %.66.i.i to ptr
+  %.68.i.i = getelementptr i8, ptr %.149, i64 488
+  %.69.i.i = load i64, ptr %.68.i.i, align 8, !noalias !285
+  %.70.i.i = inttoptr i64 %.69.i.i to ptr
+  %.71.i.i = inttoptr i64 %.153 to ptr
+  call void %.71.i.i(ptr %.67.i.i, ptr %.70.i.i, ptr %lsr.iv) #0, !noalias !285
   br label %B180
 
-B180:                                             ; preds = %B62, %B36
+B180:
   %scevgep = getelementptr i8, ptr %lsr.iv, i64 %0
   %exitcond.not = icmp eq i64 %arg.count, %.111
   br i1 %exitcond.not, label %B182, label %B36
 
-B182:                                             ; preds = %B180, %B0.endif
+B182:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
 
-define ptr @looks(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr %.5) local_unnamed_addr {
+
+define noalias ptr @looks(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr %.5) local_unnamed_addr #0 {
 entry:
-  %.7 = alloca ptr, align 8
-  store ptr null, ptr %.7, align 8
-  %.11 = call i32 @_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a(ptr nonnull %.7, ptr nonnull poison, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #9
-  %.21 = load ptr, ptr %.7, align 8
-  ret ptr %.21
+  %.8.i.i.i = alloca ptr, align 8
+  %excinfo.1.i.i.i = alloca ptr, align 8
+  %.41.i.i.i = alloca ptr, align 8
+  %excinfo.2.i.i.i = alloca ptr, align 8
+  %.9847.not.i = icmp slt i64 %.2, 1
+  br i1 %.9847.not.i, label %_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit, label %B36.preheader.i
+
+B36.preheader.i:
+  %0 = shl i64 %.3, 3
+  br label %B36.i
+
+B36.i:
+  %lsr.iv.i = phi ptr [ %.5, %B36.preheader.i ], [ %scevgep.i, %B180.i ]
+  %.1044648.i = phi i64 [ 0, %B36.preheader.i ], [ %.111.i, %B180.i ]
+  %.111.i = add nuw nsw i64 %.1044648.i, 1
+  %1 = shl i64 %.1044648.i, 3
+  %scevgep2.i = getelementptr i8, ptr %.1, i64 %1
+  %.142.i = load i64, ptr %scevgep2.i, align 8, !noalias !289
+  %.143.not.i = icmp eq i64 %.142.i, 0
+  br i1 %.143.not.i, label %B180.i, label %B62.i
+
+B62.i:
+  %.149.i = inttoptr i64 %.142.i to ptr
+  %scevgep1.i = getelementptr i8, ptr %.4, i64 %1
+  %.153.i = load i64, ptr %scevgep1.i, align 8, !noalias !289
+  store ptr null, ptr %excinfo.2.i.i.i, align 8, !noalias !292
+  %.12.i.i.i = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.8.i.i.i, ptr nonnull %excinfo.1.i.i.i, ptr nonnull %.149.i), !noalias !292
+  switch i32 %.12.i.i.i, label %entry.if.i.i [
+    i32 -2, label %B0.endif.i.i.i
+    i32 0, label %B0.endif.i.i.i
+  ], !prof !8
+
+B0.endif.i.i.i:
+  %.34.i.i.i = getelementptr i8, ptr %.149.i, i64 440
+  store double 0x7FF0000000000000, ptr %.34.i.i.i, align 8, !noalias !292
+  %.38.i.i.i = getelementptr i8, ptr %.149.i, i64 544
+  %.39.i.i.i = load i64, ptr %.38.i.i.i, align 8, !noalias !292
+  %.40.i.i.i = inttoptr i64 %.39.i.i.i to ptr
+  %.45.i.i.i = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41.i.i.i, ptr nonnull %excinfo.2.i.i.i, ptr nonnull %.149.i, ptr %.40.i.i.i) #0, !noalias !292
+  %cond.i.i.i = icmp eq i32 %.45.i.i.i, 0
+  br i1 %cond.i.i.i, label %look.exit.i, label %entry.if.i.i, !prof !24
+
+entry.if.i.i:
+  call void @llvm.trap()
+  unreachable
+
+look.exit.i:
+  %.65.i.i.i = getelementptr i8, ptr %.149.i, i64 256
+  %.66.i.i.i = load i64, ptr %.65.i.i.i, align 8, !noalias !292
+  %.67.i.i.i = inttoptr i64 %.66.i.i.i to ptr
+  %.68.i.i.i = getelementptr i8, ptr %.149.i, i64 488
+  %.69.i.i.i = load i64, ptr %.68.i.i.i, align 8, !noalias !292
+  %.70.i.i.i = inttoptr i64 %.69.i.i.i to ptr
+  %.71.i.i.i = inttoptr i64 %.153.i to ptr
+  call void %.71.i.i.i(ptr %.67.i.i.i, ptr %.70.i.i.i, ptr %lsr.iv.i) #0, !noalias !292
+  br label %B180.i
+
+B180.i:
+  %scevgep.i = getelementptr i8, ptr %lsr.iv.i, i64 %0
+  %exitcond.not.i = icmp eq i64 %.2, %.111.i
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit, label %B36.i
+
+_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit:
+  ret ptr null
 }
+
+
+declare void @llvm.trap() #1
+
+
+declare <4 x double> @llvm.fabs.v4f64(<4 x double>) #5
+
+
+
+
 
 attributes #0 = { nounwind }
 attributes #1 = { nounwind }
@@ -10300,9 +9412,6 @@ attributes #3 = { nounwind }
 attributes #4 = { nounwind }
 attributes #5 = { nounwind }
 attributes #6 = { nounwind }
-attributes #7 = { nounwind }
-attributes #8 = { nounwind }
-attributes #9 = { nounwind }
 
 !0 = !{!1}
 !1 = distinct !{!1, !2, !"_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax: %retptr"}
@@ -10312,229 +9421,291 @@ attributes #9 = { nounwind }
 !5 = distinct !{!5, !6}
 !6 = !{!"llvm.loop.isvectorized", i32 1}
 !7 = distinct !{!7, !4}
-!8 = !{!"branch_weights", i32 49, i32 1}
-!9 = !{!"branch_weights", i32 1, i32 49, i32 49}
-!10 = !{!11, !13}
-!11 = distinct !{!11, !12, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!12 = distinct !{!12, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!13 = distinct !{!13, !14, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!14 = distinct !{!14, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!15 = !{!13}
-!16 = !{!17}
-!17 = distinct !{!17, !18, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
-!18 = distinct !{!18, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
-!19 = distinct !{!19, !6, !20}
-!20 = !{!"llvm.loop.unroll.runtime.disable"}
-!21 = !{!"branch_weights", i32 4, i32 12}
-!22 = distinct !{!22, !6, !20}
-!23 = distinct !{!23, !4}
-!24 = distinct !{!24, !6}
-!25 = !{!"branch_weights", i32 1, i32 99}
-!26 = !{!27, !29}
-!27 = distinct !{!27, !28, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!28 = distinct !{!28, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!29 = distinct !{!29, !30, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!30 = distinct !{!30, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!31 = !{!29}
-!32 = !{!33}
-!33 = distinct !{!33, !34, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
-!34 = distinct !{!34, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
-!35 = !{!36, !38}
-!36 = distinct !{!36, !37, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!37 = distinct !{!37, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!38 = distinct !{!38, !39, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!39 = distinct !{!39, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!40 = !{!38}
-!41 = !{!42}
-!42 = distinct !{!42, !43, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!43 = distinct !{!43, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!44 = distinct !{!44, !4}
-!45 = !{!46}
-!46 = distinct !{!46, !47, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!47 = distinct !{!47, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!8 = !{!"branch_weights", i32 1, i32 49, i32 49}
+!9 = !{!10, !12}
+!10 = distinct !{!10, !11, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!11 = distinct !{!11, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!12 = distinct !{!12, !13, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!13 = distinct !{!13, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!14 = !{!12}
+!15 = !{!16}
+!16 = distinct !{!16, !17, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
+!17 = distinct !{!17, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
+!18 = distinct !{!18, !6, !19}
+!19 = !{!"llvm.loop.unroll.runtime.disable"}
+!20 = !{!"branch_weights", i32 4, i32 12}
+!21 = distinct !{!21, !6, !19}
+!22 = distinct !{!22, !4}
+!23 = distinct !{!23, !6}
+!24 = !{!"branch_weights", i32 49, i32 1}
+!25 = !{!26, !28}
+!26 = distinct !{!26, !27, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!27 = distinct !{!27, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!28 = distinct !{!28, !29, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!29 = distinct !{!29, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!30 = !{!28}
+!31 = !{!32}
+!32 = distinct !{!32, !33, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
+!33 = distinct !{!33, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
+!34 = !{!35, !37}
+!35 = distinct !{!35, !36, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!36 = distinct !{!36, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!37 = distinct !{!37, !36, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!38 = !{!39, !41}
+!39 = distinct !{!39, !40, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!40 = distinct !{!40, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!41 = distinct !{!41, !42, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!42 = distinct !{!42, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!43 = !{!41}
+!44 = !{!45}
+!45 = distinct !{!45, !46, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!46 = distinct !{!46, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!47 = distinct !{!47, !4}
 !48 = !{!49}
-!49 = distinct !{!49, !50, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
-!50 = distinct !{!50, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
+!49 = distinct !{!49, !50, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!50 = distinct !{!50, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !51 = !{!52}
-!52 = distinct !{!52, !53, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!53 = distinct !{!53, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!54 = distinct !{!54, !6, !20}
-!55 = distinct !{!55, !6, !20}
-!56 = distinct !{!56, !20, !6}
-!57 = !{!58}
-!58 = distinct !{!58, !59, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!59 = distinct !{!59, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!52 = distinct !{!52, !53, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
+!53 = distinct !{!53, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
+!54 = !{!55}
+!55 = distinct !{!55, !56, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!56 = distinct !{!56, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!57 = distinct !{!57, !6, !19}
+!58 = distinct !{!58, !6, !19}
+!59 = distinct !{!59, !19, !6}
 !60 = !{!61}
-!61 = distinct !{!61, !62, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!62 = distinct !{!62, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!63 = !{!64, !66}
-!64 = distinct !{!64, !65, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!65 = distinct !{!65, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!66 = distinct !{!66, !67, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!67 = distinct !{!67, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!68 = !{!66}
-!69 = distinct !{!69, !4}
-!70 = distinct !{!70, !4}
-!71 = distinct !{!71, !6, !20}
-!72 = distinct !{!72, !6, !20}
+!61 = distinct !{!61, !62, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!62 = distinct !{!62, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!63 = !{!64}
+!64 = distinct !{!64, !65, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!65 = distinct !{!65, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!66 = !{!67, !69}
+!67 = distinct !{!67, !68, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!68 = distinct !{!68, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!69 = distinct !{!69, !70, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!70 = distinct !{!70, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!71 = !{!69}
+!72 = distinct !{!72, !4}
 !73 = distinct !{!73, !4}
-!74 = distinct !{!74, !6}
-!75 = distinct !{!75, !6, !20}
-!76 = distinct !{!76, !6, !20}
-!77 = distinct !{!77, !4}
-!78 = distinct !{!78, !6}
-!79 = !{!80}
-!80 = distinct !{!80, !81, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29: %retptr"}
-!81 = distinct !{!81, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29"}
+!74 = distinct !{!74, !6, !19}
+!75 = distinct !{!75, !6, !19}
+!76 = distinct !{!76, !4}
+!77 = distinct !{!77, !6}
+!78 = distinct !{!78, !6, !19}
+!79 = distinct !{!79, !6, !19}
+!80 = distinct !{!80, !4}
+!81 = distinct !{!81, !6}
 !82 = !{!83}
-!83 = distinct !{!83, !84, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
-!84 = distinct !{!84, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
+!83 = distinct !{!83, !84, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29: %retptr"}
+!84 = distinct !{!84, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29"}
 !85 = !{!86}
 !86 = distinct !{!86, !87, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
 !87 = distinct !{!87, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
 !88 = !{!89}
-!89 = distinct !{!89, !90, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29: %retptr"}
-!90 = distinct !{!90, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29"}
+!89 = distinct !{!89, !90, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
+!90 = distinct !{!90, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
 !91 = !{!92}
-!92 = distinct !{!92, !93, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
-!93 = distinct !{!93, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
+!92 = distinct !{!92, !93, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29: %retptr"}
+!93 = distinct !{!93, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29"}
 !94 = !{!95}
-!95 = distinct !{!95, !96, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29: %retptr"}
-!96 = distinct !{!96, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29"}
+!95 = distinct !{!95, !96, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
+!96 = distinct !{!96, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
 !97 = !{!98}
-!98 = distinct !{!98, !99, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29: %retptr"}
-!99 = distinct !{!99, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29"}
-!100 = distinct !{!100, !4}
-!101 = distinct !{!101, !102}
-!102 = !{!"llvm.loop.unswitch.partial.disable"}
-!103 = !{!"branch_weights", i32 34359737, i32 2113123911}
-!104 = !{!105}
-!105 = distinct !{!105, !106, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
-!106 = distinct !{!106, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!98 = distinct !{!98, !99, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29: %retptr"}
+!99 = distinct !{!99, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29"}
+!100 = !{!101}
+!101 = distinct !{!101, !102, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29: %retptr"}
+!102 = distinct !{!102, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29"}
+!103 = distinct !{!103, !4}
+!104 = distinct !{!104, !105}
+!105 = !{!"llvm.loop.unswitch.partial.disable"}
+!106 = !{!"branch_weights", i32 34359737, i32 2113123911}
 !107 = !{!108}
 !108 = distinct !{!108, !109, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
 !109 = distinct !{!109, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
-!110 = !{!111}
-!111 = distinct !{!111, !112, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
-!112 = distinct !{!112, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
-!113 = !{!114}
-!114 = distinct !{!114, !115, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
-!115 = distinct !{!115, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
-!116 = !{}
+!110 = !{!111, !113}
+!111 = distinct !{!111, !112, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!112 = distinct !{!112, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!113 = distinct !{!113, !112, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!114 = !{!115}
+!115 = distinct !{!115, !116, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
+!116 = distinct !{!116, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
 !117 = !{!118}
 !118 = distinct !{!118, !119, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
 !119 = distinct !{!119, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
 !120 = !{!121}
 !121 = distinct !{!121, !122, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
 !122 = distinct !{!122, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
-!123 = distinct !{!123, !124}
-!124 = !{!"llvm.loop.peeled.count", i32 1}
-!125 = !{!126}
-!126 = distinct !{!126, !127, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
-!127 = distinct !{!127, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
-!128 = !{!129}
-!129 = distinct !{!129, !130, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!130 = distinct !{!130, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!131 = distinct !{!131, !6, !20}
-!132 = distinct !{!132, !6, !20}
-!133 = distinct !{!133, !20, !6}
-!134 = !{!135}
-!135 = distinct !{!135, !136, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
-!136 = distinct !{!136, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
-!137 = !{!138}
-!138 = distinct !{!138, !139, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!139 = distinct !{!139, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!140 = distinct !{!140, !124}
-!141 = !{!142}
-!142 = distinct !{!142, !143, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
-!143 = distinct !{!143, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
-!144 = !{!145}
-!145 = distinct !{!145, !146, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!146 = distinct !{!146, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!147 = distinct !{!147, !4}
-!148 = distinct !{!148, !4}
-!149 = !{!150}
-!150 = distinct !{!150, !151, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
-!151 = distinct !{!151, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
-!152 = !{!153}
-!153 = distinct !{!153, !154, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!154 = distinct !{!154, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!155 = distinct !{!155, !6, !20}
-!156 = distinct !{!156, !6, !20}
-!157 = distinct !{!157, !20, !6}
-!158 = !{!159}
-!159 = distinct !{!159, !160, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!160 = distinct !{!160, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!161 = !{!162}
-!162 = distinct !{!162, !163, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!163 = distinct !{!163, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!164 = !{!165}
-!165 = distinct !{!165, !166, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!166 = distinct !{!166, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!167 = !{!168}
-!168 = distinct !{!168, !169, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!169 = distinct !{!169, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!170 = !{!171}
-!171 = distinct !{!171, !172, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!172 = distinct !{!172, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!173 = distinct !{!173, !4}
-!174 = !{!175}
-!175 = distinct !{!175, !176, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
-!176 = distinct !{!176, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
-!177 = !{!178}
-!178 = distinct !{!178, !179, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!179 = distinct !{!179, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!180 = !{!181}
-!181 = distinct !{!181, !182, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!182 = distinct !{!182, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
-!183 = !{!184}
-!184 = distinct !{!184, !185, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
-!185 = distinct !{!185, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
-!186 = !{!187}
-!187 = distinct !{!187, !188, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!188 = distinct !{!188, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!189 = distinct !{!189, !6, !20}
-!190 = distinct !{!190, !6, !20}
-!191 = distinct !{!191, !20, !6}
-!192 = !{!193}
-!193 = distinct !{!193, !194, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
-!194 = distinct !{!194, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
-!195 = !{!196}
-!196 = distinct !{!196, !197, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!197 = distinct !{!197, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
-!198 = !{!199}
-!199 = distinct !{!199, !200, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!200 = distinct !{!200, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!201 = !{!202}
-!202 = distinct !{!202, !203, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!203 = distinct !{!203, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!204 = !{!205, !207}
-!205 = distinct !{!205, !206, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!206 = distinct !{!206, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!207 = distinct !{!207, !206, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %excinfo"}
-!208 = distinct !{!208, !4}
+!123 = !{}
+!124 = !{!125, !127}
+!125 = distinct !{!125, !126, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!126 = distinct !{!126, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!127 = distinct !{!127, !126, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!128 = !{!129, !131}
+!129 = distinct !{!129, !130, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!130 = distinct !{!130, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!131 = distinct !{!131, !130, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!132 = !{!133}
+!133 = distinct !{!133, !134, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
+!134 = distinct !{!134, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
+!135 = !{!136, !138, !133}
+!136 = distinct !{!136, !137, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!137 = distinct !{!137, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!138 = distinct !{!138, !137, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!139 = !{!140}
+!140 = distinct !{!140, !141, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
+!141 = distinct !{!141, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
+!142 = !{!143, !145, !140}
+!143 = distinct !{!143, !144, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!144 = distinct !{!144, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!145 = distinct !{!145, !144, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!146 = distinct !{!146, !147}
+!147 = !{!"llvm.loop.peeled.count", i32 1}
+!148 = !{!149}
+!149 = distinct !{!149, !150, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
+!150 = distinct !{!150, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!151 = !{!152}
+!152 = distinct !{!152, !153, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!153 = distinct !{!153, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!154 = distinct !{!154, !6, !19}
+!155 = distinct !{!155, !6, !19}
+!156 = distinct !{!156, !19, !6}
+!157 = !{!158}
+!158 = distinct !{!158, !159, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
+!159 = distinct !{!159, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!160 = !{!161}
+!161 = distinct !{!161, !162, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!162 = distinct !{!162, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!163 = distinct !{!163, !147}
+!164 = !{!165, !167}
+!165 = distinct !{!165, !166, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!166 = distinct !{!166, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!167 = distinct !{!167, !166, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!168 = !{!169}
+!169 = distinct !{!169, !170, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
+!170 = distinct !{!170, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!171 = !{!172}
+!172 = distinct !{!172, !173, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!173 = distinct !{!173, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!174 = distinct !{!174, !4}
+!175 = !{!176, !178}
+!176 = distinct !{!176, !177, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!177 = distinct !{!177, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!178 = distinct !{!178, !177, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!179 = !{!180, !182}
+!180 = distinct !{!180, !181, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!181 = distinct !{!181, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!182 = distinct !{!182, !181, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!183 = !{!184, !186}
+!184 = distinct !{!184, !185, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!185 = distinct !{!185, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!186 = distinct !{!186, !185, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!187 = distinct !{!187, !4}
+!188 = !{!189}
+!189 = distinct !{!189, !190, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
+!190 = distinct !{!190, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!191 = !{!192}
+!192 = distinct !{!192, !193, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!193 = distinct !{!193, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!194 = distinct !{!194, !6, !19}
+!195 = distinct !{!195, !6, !19}
+!196 = distinct !{!196, !19, !6}
+!197 = !{!198}
+!198 = distinct !{!198, !199, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!199 = distinct !{!199, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!200 = !{!201}
+!201 = distinct !{!201, !202, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!202 = distinct !{!202, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!203 = !{!204}
+!204 = distinct !{!204, !205, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!205 = distinct !{!205, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!206 = !{!207}
+!207 = distinct !{!207, !208, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!208 = distinct !{!208, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !209 = !{!210}
-!210 = distinct !{!210, !211, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!211 = distinct !{!211, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
+!210 = distinct !{!210, !211, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!211 = distinct !{!211, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !212 = distinct !{!212, !4}
 !213 = !{!214}
-!214 = distinct !{!214, !215, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!215 = distinct !{!215, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!214 = distinct !{!214, !215, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!215 = distinct !{!215, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
 !216 = !{!217}
-!217 = distinct !{!217, !218, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!218 = distinct !{!218, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!219 = distinct !{!219, !4}
-!220 = !{!221}
-!221 = distinct !{!221, !222, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!222 = distinct !{!222, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!223 = distinct !{!223, !6, !20}
-!224 = distinct !{!224, !6, !20}
-!225 = distinct !{!225, !20, !6}
-!226 = !{!227}
-!227 = distinct !{!227, !228, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!228 = distinct !{!228, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!229 = !{!230}
-!230 = distinct !{!230, !231, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!231 = distinct !{!231, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-
-declare void @llvm.trap()
+!217 = distinct !{!217, !218, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!218 = distinct !{!218, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!219 = !{!220}
+!220 = distinct !{!220, !221, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!221 = distinct !{!221, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
+!222 = !{!223}
+!223 = distinct !{!223, !224, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
+!224 = distinct !{!224, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!225 = !{!226}
+!226 = distinct !{!226, !227, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!227 = distinct !{!227, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!228 = distinct !{!228, !6, !19}
+!229 = distinct !{!229, !6, !19}
+!230 = distinct !{!230, !19, !6}
+!231 = !{!232}
+!232 = distinct !{!232, !233, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!233 = distinct !{!233, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!234 = !{!235}
+!235 = distinct !{!235, !236, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!236 = distinct !{!236, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
+!237 = !{!238}
+!238 = distinct !{!238, !239, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!239 = distinct !{!239, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!240 = !{!241}
+!241 = distinct !{!241, !242, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!242 = distinct !{!242, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!243 = !{!244, !246, !241}
+!244 = distinct !{!244, !245, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!245 = distinct !{!245, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
+!246 = distinct !{!246, !245, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
+!247 = !{!248, !250}
+!248 = distinct !{!248, !249, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!249 = distinct !{!249, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!250 = distinct !{!250, !249, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %excinfo"}
+!251 = distinct !{!251, !4}
+!252 = !{!253}
+!253 = distinct !{!253, !254, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!254 = distinct !{!254, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
+!255 = distinct !{!255, !4}
+!256 = !{!257}
+!257 = distinct !{!257, !258, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!258 = distinct !{!258, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!259 = !{!260}
+!260 = distinct !{!260, !261, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!261 = distinct !{!261, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!262 = distinct !{!262, !4}
+!263 = !{!264}
+!264 = distinct !{!264, !265, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!265 = distinct !{!265, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!266 = distinct !{!266, !6, !19}
+!267 = distinct !{!267, !6, !19}
+!268 = distinct !{!268, !19, !6}
+!269 = !{!270}
+!270 = distinct !{!270, !271, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!271 = distinct !{!271, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!272 = !{!273}
+!273 = distinct !{!273, !274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!274 = distinct !{!274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!275 = !{!276, !278}
+!276 = distinct !{!276, !277, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %retptr"}
+!277 = distinct !{!277, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a"}
+!278 = distinct !{!278, !277, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %excinfo"}
+!279 = !{!280}
+!280 = distinct !{!280, !281, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add: %retptr"}
+!281 = distinct !{!281, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add"}
+!282 = !{!283}
+!283 = distinct !{!283, !284, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add: %retptr"}
+!284 = distinct !{!284, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add"}
+!285 = !{!286, !288}
+!286 = distinct !{!286, !287, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %retptr"}
+!287 = distinct !{!287, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a"}
+!288 = distinct !{!288, !287, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %excinfo"}
+!289 = !{!290}
+!290 = distinct !{!290, !291, !"_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a: %retptr"}
+!291 = distinct !{!291, !"_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a"}
+!292 = !{!293, !295, !290}
+!293 = distinct !{!293, !294, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %retptr"}
+!294 = distinct !{!294, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a"}
+!295 = distinct !{!295, !294, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %excinfo"}

@@ -63,7 +63,7 @@ def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNames
     each unit that Python calls -> how many arguments it takes.
     """
     # `loops` is their text for LLVM, `at` the address of each unit
-    at = load_or_compile(loops(files), [*arguments], optimised=True)
+    at = load_or_compile(loops(files), [*arguments])
     calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
     return SimpleNamespace(**calls)
 

@@ -22,6 +22,7 @@ from typing import Any
 from llvmlite import binding
 
 from biped_adrc.core.errors import ModelError
+from biped_adrc.engine.machine import parsed
 
 _ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """Declarations of functions that numba calls where Python would raise an error, which the loops never do."""
@@ -90,7 +91,28 @@ def written(files: tuple[str, ...]) -> str:
     llvm = re.sub("numba_nextafter", "nextafter", str(linked))
     # what would raise an error in Python is never called, but would be missing where the text is linked
     llvm = _ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
-    # hints to the optimiser are left out, as each version of LLVM writes them in another way: HINTS too
+    llvm = _optimised(f"{_plain(llvm)}\ndeclare void @llvm.trap()\n")
+    return _plain(re.sub(r"^(source_filename|target) .*\n", "", llvm, flags=re.MULTILINE))
+
+
+def _plain(llvm: str) -> str:
+    """LLVM's text without hints to the optimiser, which each version of LLVM writes in another way, and without
+    comments.
+    """
     llvm = re.sub(r"^.*@llvm\.lifetime\..*\n", "", llvm, flags=re.MULTILINE)
     llvm = re.sub(r"^(attributes #\d+ = ).*$", r"\1{ nounwind }", llvm, flags=re.MULTILINE)
-    return f"{HINTS.sub('', llvm)}\ndeclare void @llvm.trap()\n"
+    return HINTS.sub("", re.sub(r" *;.*$", "", llvm, flags=re.MULTILINE))
+
+
+def _optimised(llvm: str) -> str:
+    """LLVM's text after LLVM's passes of level 3, which inline units in each other, so that no user waits for
+    them. Without vectors and unrolled loops, which suit one processor alone.
+    """
+    binding.initialize_all_targets()
+    machine = binding.Target.from_triple("x86_64-unknown-linux-gnu").create_target_machine()
+    module = parsed(llvm, machine)
+    tuning = binding.create_pipeline_tuning_options(speed_level=3)
+    tuning.slp_vectorization = tuning.loop_vectorization = tuning.loop_unrolling = False
+    builder = binding.create_pass_builder(machine, tuning)
+    builder.getModulePassManager().run(module, builder)
+    return str(module)
