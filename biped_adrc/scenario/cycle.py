@@ -17,12 +17,14 @@ the map unless observer_states is False: then the controller starts anew after e
 2 n - 1 coordinates.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from biped_adrc.analysis.loops.frozen_gait import FrozenGait
-from biped_adrc.analysis.loops.specification import Specification, specification
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.stability import Cycle, known_cycle
 from biped_adrc.closed_loop.walker import Mode
@@ -31,6 +33,9 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
+
+if TYPE_CHECKING:
+    from biped_adrc.analysis.loops.specification import Specification
 
 _DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for walkers that RK4 integrates by default. It is
@@ -105,6 +110,9 @@ def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specific
     as the candidates of a search, the gait is linearised once. Raises InputError for a scenario in continuous
     time, on another plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
+    # imported here, since it imports SciPy's optimisation, which a cycle does without
+    from biped_adrc.analysis.loops.specification import specification
+
     if s.ground.plant != RIGID:
         raise InputError(f"a specification on plant '{s.ground.plant}', expected '{RIGID}'")
     scene = RobotAndGait.of(s) if scene is None else scene
