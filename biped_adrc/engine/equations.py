@@ -190,6 +190,18 @@ class SymbolicFunction(NamedTuple):
     """Expression of K and inp: where it is not above 0, out is zero. None: out is always computed."""
 
 
+def _jumped(jump: Callable[..., Any], law: type, s: Any, *more: object) -> Any:
+    """The result of a controller's jump on symbols. It alone is not tried at the start of a run, so here it has
+    to have the layout of the state s; where it has not, the walk runs in Python, which names the line.
+    """
+    result = jump(s, *more)
+    if Layout.of(result) != Layout.of(s):
+        raise Located(
+            f"{law.__name__}.jump gives a state of another class or shape than initial_state"
+        )
+    return result
+
+
 @dataclass(frozen=True)
 class Equations:
     """The functions of walkers of one structure; each of the methods below traces one of them.
@@ -226,6 +238,7 @@ class Equations:
         law, held = trace.on_symbols(K.controller), trace.on_symbols(K.held) if K.held else None
         # the controller's methods, each to be copied for symbols where it is called
         calls = ControlLaw(*(partial(apply, trace, getattr(law, x)) for x in ControlLaw._fields))
+        calls = calls._replace(jump=partial(_jumped, calls.jump, type(self.numbers.controller)))
         # []: no torque is computed yet
         return SymbolicLoop(plant, model, K, trace, calls, held, self.layout, [], zeta, force)
 
@@ -277,10 +290,6 @@ class Equations:
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         # `strike`: impact map, relabelling of the legs and the controller's jump
         x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
-        # jump alone is not tried at the start of a run, so the size of its result is checked here
-        if len(x) != self.nx:
-            name = type(self.numbers.controller).__name__
-            raise Located(f"{name}.jump gives a state of another size than initial_state")
         # lost: the least pivot, or -1 where a torque is beyond the bound
         return self.function(inp, x, loop.lost)
 

@@ -4,6 +4,7 @@
 law with its state as an array. `walked` walks two steps under a push.
 """
 
+import re
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -18,6 +19,13 @@ from tests.export.test_agreement import TOLERANCE, difference
 
 K_I, LEAST = 1e5, 1e-4
 CLOCKS = {"continuous": ba.ContinuousTime(), "sampled": ba.SampledTime(1e-3)}
+
+
+class Exchanged(NamedTuple):
+    """The names of `Integral` in another order."""
+
+    waits: float
+    e: np.ndarray
 
 
 class Integral(NamedTuple):
@@ -150,3 +158,24 @@ def test_another_state_than_at_the_start_is_refused_by_method(biped, gait):
     assert walk.trajectory.status is ba.Status.RAISED
     assert "WithNames.jump" in walk.trajectory.detail
     assert "(2,)" in walk.trajectory.detail
+
+
+@dataclass(frozen=True)
+class Exchanging(WithNames):
+    """After an impact the state has its names in another order, and as many numbers as before."""
+
+    def jump(self, s, after, swap):
+        return Exchanged(0.0, s.e[swap])
+
+
+@pytest.mark.parametrize("clock", CLOCKS)
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_another_state_after_an_impact_is_refused_by_both_engines(biped, gait, engine, clock):
+    """Machine code would take its numbers in the order of the start; the walk ends with class, method and
+    line.
+    """
+    walker = ba.Walker(biped, Exchanging(gait.constraint), timing=CLOCKS[clock])
+    run = ba.walk(walker, gait, 1, ba.RK4(4e-3), engine=engine).trajectory
+    assert run.status is ba.Status.RAISED
+    said = r"Exchanging.jump \(test_own_state.py:\d+\) returned a Exchanged, expected a Integral"
+    assert re.search(said, run.detail)
