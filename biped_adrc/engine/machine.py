@@ -96,17 +96,25 @@ def object_code(
 ) -> bytes:
     """Object code of a module for this target machine.
 
-    optimised: whether LLVM's passes of level 3 run before, which also join like operations into vector
-    instructions. A traced function is one straight line in which each expression stands once: there they take a
-    third of the time and change nothing; in the text of the march they are done already (`kernels.write`). No
-    fast-math flags, so sums keep their order.
+    optimised: whether `run_passes` runs before, with vectors, as for products with matrices. Other traced
+    functions are one straight line in which each expression stands once: passes would take a third of the time
+    and change nothing; in the text of the march they are done already (`kernels.write`). No fast-math flags, so
+    sums keep their order.
     """
     module.verify()
     if optimised:
-        tuning = binding.create_pipeline_tuning_options(speed_level=3)
-        builder = binding.create_pass_builder(machine, tuning)
-        builder.getModulePassManager().run(module, builder)
+        run_passes(module, machine, vectors=True)
     return bytes(machine.emit_object(module))
+
+
+def run_passes(module: binding.ModuleRef, machine: binding.TargetMachine, vectors: bool) -> None:
+    """Run LLVM's passes of level 3 over a module. vectors: whether they join like operations into vector
+    instructions and unroll loops, as suits this target machine alone.
+    """
+    tuning = binding.create_pipeline_tuning_options(speed_level=3)
+    tuning.slp_vectorization = tuning.loop_vectorization = tuning.loop_unrolling = vectors
+    builder = binding.create_pass_builder(machine, tuning)
+    builder.getModulePassManager().run(module, builder)
 
 
 _ENGINES: list[object] = []

@@ -22,7 +22,7 @@ from typing import Any
 from llvmlite import binding
 
 from biped_adrc.core.errors import ModelError
-from biped_adrc.engine.machine import parsed
+from biped_adrc.engine.machine import parsed, run_passes
 
 _ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """Declarations of functions that numba calls where Python would raise an error, which the loops never do."""
@@ -111,8 +111,5 @@ def _optimised(llvm: str) -> str:
     binding.initialize_all_targets()
     machine = binding.Target.from_triple("x86_64-unknown-linux-gnu").create_target_machine()
     module = parsed(llvm, machine)
-    tuning = binding.create_pipeline_tuning_options(speed_level=3)
-    tuning.slp_vectorization = tuning.loop_vectorization = tuning.loop_unrolling = False
-    builder = binding.create_pass_builder(machine, tuning)
-    builder.getModulePassManager().run(module, builder)
+    run_passes(module, machine, vectors=False)
     return str(module)
