@@ -125,12 +125,13 @@ def held_joint(t_end: float = 2.0, h: float = HELD_STEP) -> tuple[float, float, 
     observer = GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
     zero = np.zeros(1)  # q_d, q_d', q_d'' of the one joint
     controller = ADRCController(TimeReference(lambda t: (zero, zero, zero)), observer)
-    w = 2.0 * math.pi * 5.0
+    frequency = 5.0  # of the disturbance [Hz]
+    w = 2.0 * math.pi * frequency
     start = np.concatenate((np.zeros(2), observer.initial_state(zero, zero, zero)[:, 0]))
     # None: the system has one mode only
     run = simulate(HeldJoint(controller, w), start, None, RK4(h), t_end=t_end)
     t, e = run.arcs[0].t, run.arcs[0].x[:, 0]
-    last = t >= t_end - 2.0 / 5.0 - 1e-9  # two periods; 1e-9 s for round-off of the times
+    last = t >= t_end - 2.0 / frequency - 1e-9  # two periods; 1e-9 s for round-off of the times
     basis = np.column_stack((np.cos(w * t[last]), np.sin(w * t[last])))
     amplitude = float(np.linalg.norm(np.linalg.lstsq(basis, e[last], rcond=None)[0]))
     loop, at = ObserverLoop(observer), np.array([w])
