@@ -7,6 +7,7 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.feasibility import Feasibility
+from biped_adrc.analysis.half_step import AtTwoSteps
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import KnownLimits
@@ -22,7 +23,6 @@ from biped_adrc.paper.scenarios import (
     members,
     on_the_recipe,
 )
-from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.scenario import Scenario
 

@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.half_step import ROUND_OFF, AtTwoSteps
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import pushes as member_runs
@@ -45,7 +46,6 @@ from biped_adrc.paper.table import (
     tally,
     word_of_claim,
 )
-from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps
 from biped_adrc.paper.values import noise_spectrum, of_members, of_starts
 from biped_adrc.view.pages import CLAIM_COLUMNS
 

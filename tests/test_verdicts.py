@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from biped_adrc.analysis.half_step import AtTwoSteps
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.cli.study import lines
 from biped_adrc.core.processes import Timed
@@ -27,7 +28,6 @@ from biped_adrc.paper.reproduction import _recipe
 from biped_adrc.paper.runs import Runs, tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, base_runs
 from biped_adrc.paper.table import checks
-from biped_adrc.paper.two_steps import AtTwoSteps
 
 from .made_up_results import CERTIFICATE, cycle, head, outcome, results
 

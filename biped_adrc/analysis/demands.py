@@ -32,7 +32,7 @@ from biped_adrc.engine.kernels.record import Ints
 SHORTEST = 1e-9
 """Shortest single support with a mean force [s]."""
 T, STEP, OUTSIDE, ERROR, U, Q, V, MOMENTUM, FOOT = range(9)
-"""Columns in the order of `NodeRow`; `at` says where in a row each begins."""
+"""Columns in the order of `ground_force.NODE_COLUMNS`; `at` says where in a row each begins."""
 WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, FALLS = 0, 1, 2, 3, 4, 6, 8, 9
 """Where each part of `ground_force.Known` begins; its joints stand behind the S numbers of FALLS."""
 

@@ -26,6 +26,12 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS
 
+NODE_COLUMNS = (
+    *(("t",), ("step",), ("outside",)),
+    *(("reading", name) for name in ("error", "u", "q", "v_b", "momentum", "swing_foot")),
+)
+"""Columns of a `NodeRow` that the compiled loops read, in the order of T, STEP .. in `analysis.demands`."""
+
 
 @dataclass(frozen=True)
 class Nodes:
@@ -41,11 +47,9 @@ class Nodes:
     @classmethod
     def of(cls, s: Signals) -> Nodes:
         """Take the nodes from the signals of a walk."""
-        n, p = s.q.shape[1], s.u.shape[1]
-        reading = StepReading(s.q[:, :p] - s.q_d, s.u, s.q, s.v[:, :p], s.momentum, s.swing_foot)
         # the columns in the order of `NodeRow`
-        parts = np.column_stack((s.t, s.step, s.outside, *reading))
-        return cls(np.ascontiguousarray(parts), n, p)
+        parts = np.column_stack((s.t, s.step, s.outside, *StepReading.of(s.q, s.v, s)))
+        return cls(np.ascontiguousarray(parts), s.q.shape[1], s.u.shape[1])
 
     def before_fall(self, h: VirtualConstraint, phase: Array) -> Nodes:
         """The nodes of a walk that fell, without those in the fall, where no tracking error is defined, as
@@ -63,8 +67,9 @@ class Nodes:
 
     @cached_property
     def _columns(self) -> Indices:
-        """Index in a row of the first number of each column of `at`, as the compiled loops read it."""
-        return np.array(node_layout(self.n, self.p).starts())
+        """Index in a row of the first number of each of NODE_COLUMNS, as the compiled loops read it."""
+        layout = node_layout(self.n, self.p)
+        return np.array([layout.place(*path).start for path in NODE_COLUMNS])
 
     @property
     def pointers(self) -> tuple[int, int, int, int]:

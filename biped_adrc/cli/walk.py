@@ -120,8 +120,8 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     half: the same walk at half the integration step; None without motors, where there is no tracking error.
     limits: by which each step is judged.
     """
+    from biped_adrc.analysis.half_step import error_text
     from biped_adrc.analysis.signals import FALLS
-    from biped_adrc.paper.two_steps import error_text
 
     feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
     _print_steps(feasibility.supports, certificates)

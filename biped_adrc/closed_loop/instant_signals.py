@@ -12,9 +12,11 @@ mode the single support, its number and the time at which it began. Symbols:
     ^, m v_com    an estimate by the controller's observer; momentum of the whole robot (2,) [N s]
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, get_type_hints
 
 import numpy as np
 
@@ -117,21 +119,36 @@ def controller_inputs(
 class StepReading(NamedTuple):
     """The signals of the closed loop at one instant that verdicts and studies read.
 
-    To add a signal, add a line here, its size in `node_layout`, and a line in `step_reading`.
+    To add a signal, add a line here, with its size, and a line in `of`.
     """
 
-    error: Array
+    error: Annotated[Array, "p"]
     """Tracking error q_b - q_d of the joints (p,) [rad]."""
-    u: Array
+    u: Annotated[Array, "p"]
     """Torque applied (p,) [N m]."""
-    q: Array
+    q: Annotated[Array, "n"]
     """Coordinates (n,) [rad], those of the joints first."""
-    v_b: Array
+    v_b: Annotated[Array, "p"]
     """Their rates (p,) [rad/s]."""
-    momentum: Array
+    momentum: Annotated[Array, "x, z"]
     """m v_com of the plant (2,) [N s]."""
-    swing_foot: Array
+    swing_foot: Annotated[Array, "x, z"]
     """Place (x, z) of the swing foot relative to the stance foot (2,) [m]."""
+
+    @classmethod
+    def of(cls, q: Array, v: Array, s: Any) -> StepReading:
+        """Take them from q (n,) [rad], v (n,) [rad/s] and the other signals s at one instant, or at K nodes
+        with a leading axis of K; s: an `InstantSignals`, or an `analysis.signals.Signals`.
+        """
+        p = s.u.shape[-1]
+        return cls(
+            error=q[..., :p] - s.q_d,
+            u=s.u,
+            q=q,
+            v_b=v[..., :p],
+            momentum=s.momentum,
+            swing_foot=s.swing_foot,
+        )
 
 
 class NodeRow(NamedTuple):
@@ -150,20 +167,13 @@ class NodeRow(NamedTuple):
 @cache
 def node_layout(n: int, p: int) -> Layout:
     """The layout of a `NodeRow` as one vector, for n coordinates, p of them with a motor."""
-    # the sizes are in the order of the fields of StepReading: error, u, q, v_b, momentum, swing_foot
-    reading = StepReading(*(np.zeros(size) for size in (p, p, n, p, 2, 2)))
+    # get_type_hints, include_extras: the annotations of the fields, with the name of each size
+    sizes, fields = {"p": p, "n": n, "x, z": 2}, get_type_hints(StepReading, include_extras=True)
+    reading = StepReading(*(np.zeros(sizes[x.__metadata__[0]]) for x in fields.values()))
     return Layout.of(NodeRow(np.zeros(()), np.zeros(()), np.zeros(2), reading))
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
-    """Error q_b - q_d to reference(s, m), u, q, v_b, momentum, swing foot at t [s] in the state x (nx,)."""
-    i, plant = instant(loop, t, x, mode), loop.plant
-    m, p = i.measurement, plant.p
-    return StepReading(
-        m.q[:p] - reference(i.s, m).q_d,
-        i.u,
-        m.q,
-        m.v[:p],
-        plant.momentum(m.q, m.v),
-        plant.swing_foot(m.q),
-    )
+    """The `StepReading` at t [s] in the state x (nx,), with the error to reference(s, m)."""
+    q, v = parts(loop, x)[:2]
+    return StepReading.of(q, v, signals_at(loop, t, x, mode, reference))

@@ -109,11 +109,12 @@ def measurement(
     """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
     The nominal model's `terms` (inertia, Omega, kappa, xi) are computed here, unless the caller has them at q,
-    v; with `body` also its `BodyTerms` (gravity, force of the ground), for a controller that asks for them
-    (`Controller.needs_body`). All of it is read-only: a controller that writes into it would change the motion.
+    v, and read-only; with `body` also its `BodyTerms` (gravity, force of the ground), for a controller that
+    asks for them (`Controller.needs_body`). All of it is read-only: a controller that writes into it would
+    change the motion.
     """
     q, v = frozen(q), frozen(v)
-    terms = frozen(loop.nominal.reduction(q, v) if terms is None else terms)
+    terms = frozen(loop.nominal.reduction(q, v)) if terms is None else terms
     of_body = frozen(loop.nominal.body_terms(q, v)) if body else None
 
     # for a controller that asks for the model's terms at another state, such as a predicted one

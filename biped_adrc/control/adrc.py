@@ -74,12 +74,6 @@ class ADRCController(ObservingController):
         # `joint_estimate` is x itself here; it differs in `AssistedADRCController`
         return tracking_torque(self.gains, r, self.joint_estimate(x, m), m, self.solve_theta)
 
-    def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of q_b' (p, 2) when the rates q' change by each column of a (n, 2), such as by an impulse in x
-        and one in z: the first p rows of a.
-        """
-        return a[: m.terms.kappa.shape[0]]
-
     def error_system(self) -> ErrorSystem | None:
         return self.observer.error_system()
 

@@ -239,6 +239,8 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
         # a call at another rate, which a memory in the object would keep; [1:] leaves out m
         getattr(controller, name)(s, other, *arguments[1:])
         again = getattr(controller, name)(s, *arguments)
+        # a leaf may be a list
+        again = returned_tree(again, None, controller, name, finite=False)
         if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
             raise InputError(
                 f"{spoken(controller)}.{name}{line_of(controller, name)} gave another result when asked again "

@@ -48,7 +48,8 @@ from biped_adrc.control.around import ContactWindow
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of
-from biped_adrc.core.checks import check_part
+from biped_adrc.core.checks import check_part, spoken
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.part import derived
 from biped_adrc.core.tree import chosen
@@ -86,10 +87,16 @@ class ImpactInvariant(ContactWindow):
         why = "a touchdown is expected by the phase of a virtual constraint"
         # raises InputError where there is none; `_has_no` below raises it always
         tracked_constraint(self.inner, why)
-        if "output" not in self.inner.reads_impulse:
-            self.inner._has_no("rate error that could be projected")
-        if self.innovation and "correct" not in self.inner.reads_impulse:
-            self.inner._has_no("innovation that could be projected")
+        reads = self.inner.reads_impulse
+        if unknown := set(reads) - {"output", "correct"}:
+            raise InputError(
+                f"reads_impulse of {spoken(self.inner)} has {sorted(unknown)}, expected 'output' or 'correct'"
+            )
+        how = "leave m.impulse out of its error in {0}, and name '{0}' in reads_impulse"
+        if "output" not in reads:
+            self.inner._has_no("rate error that could be projected", how.format("output"))
+        if self.innovation and "correct" not in reads:
+            self.inner._has_no("innovation that could be projected", how.format("correct"))
 
     @derived
     def phase(self) -> tuple[Array, float]:

@@ -32,6 +32,7 @@ from biped_adrc.control.tracking import (
     Gains,
     ObservingController,
     body_of,
+    impulse_of,
     tracking_torque,
 )
 from biped_adrc.core.linear import solve_positive
@@ -100,6 +101,6 @@ class MomentumDOBController(ObservingController):
         """
         return measured(m)._replace(disturbance=_pushed(m.terms, x.disturbance).xi)
 
-    def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change D a (n, 2) of the momentum when the rates q' change by each column of a (n, 2)."""
-        return m.terms.D @ a
+    def impulse_change(self, m: Measurement) -> Array:
+        """Changes N = D a (n, 2) of the momentum by an impulse of 1 N s in x and in z; a (n, 2): m.impulse."""
+        return m.terms.D @ impulse_of(m)

@@ -23,6 +23,7 @@ from biped_adrc.control.tracking import (
     TABLE_II,
     Gains,
     ObservingController,
+    impulse_of,
     output_matrix,
     rate_error_change,
     unchanged,
@@ -87,8 +88,6 @@ class OutputADRCController(ObservingController):
         xi = solve(output_matrix(r, terms), rest, "the output's decoupling matrix")
         return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
 
-    def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of y' (p, 2) when the rates q' change by each column of a (n, 2), such as by an impulse in x
-        and one in z.
-        """
-        return rate_error_change(self.point(m), a)
+    def impulse_change(self, m: Measurement) -> Array:
+        """Changes N = a_b - H a (p, 2) of y' by an impulse of 1 N s in x and in z; a (n, 2) is `m.impulse`."""
+        return rate_error_change(self.point(m), impulse_of(m))

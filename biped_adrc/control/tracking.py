@@ -188,6 +188,16 @@ def body_of(m: Measurement) -> BodyTerms:
     return m.body
 
 
+def impulse_of(m: Measurement) -> Array:
+    """`m.impulse` (n, 2) [1/(kg m)], the changes of the rates by an impulse on the striking foot.
+
+    Raises InputError for a measurement without it.
+    """
+    if m.impulse is None:
+        raise InputError("the measurement has no impulse; expected one made by ImpactInvariant")
+    return m.impulse
+
+
 class ObservingController(Controller):
     """Base of the controllers whose state s is the state z of an observer.
 
@@ -222,11 +232,11 @@ class ObservingController(Controller):
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
         """u (p,) [N m] for the point r of the reference and the observer's own estimates x."""
 
-    @abstractmethod
-    def output_change(self, m: Measurement, a: Array) -> Array:
-        """Changes of y', or of y where y is a momentum, when the rates q' change by each column of a (n, 2),
-        such as by each component of a contact impulse; one column each.
+    def impulse_change(self, m: Measurement) -> Array:
+        """N: changes of y', or of y where y is a momentum, by an impulse of 1 N s in x and in z on the striking
+        foot, one column each, from `m.impulse` a (n, 2); by default a_b (p, 2), where y is q_b.
         """
+        return impulse_of(m)[: m.terms.kappa.shape[0]]
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
         """The observer's estimates x as estimates of the joints, each (p,); x itself by
@@ -263,7 +273,7 @@ class ObservingController(Controller):
         # near a touchdown, inside `ImpactInvariant`: the innovation y - y^ without what an impulse can change
         if m.impulse is not None:
             y_hat = self.observer.estimate(s).position
-            y = y_hat + orthogonal_to(self.output_change(m, m.impulse)) @ (y - y_hat)
+            y = y_hat + orthogonal_to(self.impulse_change(m)) @ (y - y_hat)
         return self.observer.correct(s, y)
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:

@@ -198,14 +198,23 @@ def _sentence(part: object, method: str, field: bool) -> str:
 
 def line_of(part: object, method: str) -> str:
     """Text such as " (own.py:12)" with the line where a user's class writes a method; empty
-    for a class of this package.
+    for a class of this package, unless a part inside it is a user's and writes the method.
     """
-    written: Any = getattr(type(part), method, None)
-    # the user's own function, below the checks that decorators put around it
-    code = getattr(unwrap(written), "__code__", None)
-    if code is None or not is_users(code.co_filename):
-        return ""
-    return f" ({Path(code.co_filename).name}:{code.co_firstlineno})"
+    # an observer has `reset` where the controller around it has `jump`
+    for name in (method, "reset") if method == "jump" else (method,):
+        written: Any = getattr(type(part), name, None)
+        # the user's own function, below the checks that decorators put around it
+        code = getattr(unwrap(written), "__code__", None)
+        if code is not None and is_users(code.co_filename):
+            return f" ({Path(code.co_filename).name}:{code.co_firstlineno})"
+    return next(filter(None, (line_of(x, method) for x in _inside(part))), "")
+
+
+def _inside(part: object) -> list[Any]:
+    """The parts in the fields `inner`, `observer` and `parts` of a part."""
+    fields = [getattr(part, name, None) for name in ("inner", "observer", "parts")]
+    each = [x for field in fields for x in (field if isinstance(field, tuple) else (field,))]
+    return [x for x in each if isinstance(x, Checked)]
 
 
 def _numbers_returned(
@@ -275,9 +284,7 @@ def spoken(part: object) -> str:
     """Names of the classes of a part and of the parts in its fields `inner`, `observer` and `parts`, such as
     "Delayed (ADRCController (MyObserver))".
     """
-    inside = [getattr(part, name, None) for name in ("inner", "observer", "parts")]
-    each = [x for given in inside for x in (given if isinstance(given, tuple) else (given,))]
-    names = [spoken(x) for x in each if isinstance(x, Checked)]
+    names = [spoken(x) for x in _inside(part)]
     return type(part).__name__ + (f" ({', '.join(names)})" if names else "")
 
 

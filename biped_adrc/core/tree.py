@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import accumulate
 from numbers import Real
 from typing import Any, NamedTuple, TypeVar
 
@@ -105,16 +104,6 @@ class Layout(NamedTuple):
             part = part.parts[i]
         return slice(at, at + part.size)
 
-    def starts(self) -> list[int]:
-        """The index in the vector at which each array or number of the tree begins, in order; a None, which
-        takes no place, has one too.
-        """
-        if self.kind is None or self.kind is type(None):
-            return [0]
-        # where each part begins; one more at the end, hence not strict
-        ends = accumulate((x.size for x in self.parts), initial=0)
-        return [at + start for at, x in zip(ends, self.parts, strict=False) for start in x.starts()]
-
     def names(self, name: str = "") -> Iterator[str]:
         """Iterate over the names of all numbers of the tree, such as line.u[0]; name: what they begin with."""
         if self.kind is None:
@@ -142,15 +131,22 @@ def returned_tree(
         # None for what is no number, which `returned` then refuses
         shape: tuple[int, ...] | None = np.shape(found) if numeric else None
         return returned(found, shape, part, method, finite)
-    if layout is not None and type(found) is not kind:
-        raise InputError(
-            f"{spoken(part)}.{method}{line_of(part, method)} returned a {type(found).__name__}, expected a "
-            f"{kind.__name__} as at the start"  # type: ignore[union-attr]
-        )
+    same = layout is None or type(found) is kind
+    # a plain tuple is of the right class whatever its length
+    if not same or (layout is not None and len(found) != len(layout.parts)):
+        begin = f"{spoken(part)}.{method}{line_of(part, method)} returned"
+        # _tuple_text: name of a class, and of a plain tuple its length too
+        one, other = _tuple_text(type(found), found), _tuple_text(kind, layout.parts)  # type: ignore[union-attr]
+        raise InputError(f"{begin} {one}, expected {other} as at the start")
     layouts = (None,) * len(found) if layout is None else layout.parts
     each = zip(found, layouts, strict=True)
     # _or_none: checks a part, which may also be None; _like: a tuple of the same class as `found`
     return _like(type(found), [_or_none(x, y, part, method, finite) for x, y in each])
+
+
+def _tuple_text(kind: Any, parts: Any) -> str:
+    """Text of a class in a message: "a NAME", of a plain tuple "a tuple of 2"."""
+    return f"a {kind.__name__}" + (f" of {len(parts)}" if kind is tuple else "")
 
 
 def _or_none(found: Any, layout: Layout | None, part: object, method: str, finite: bool) -> Any:

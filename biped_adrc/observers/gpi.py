@@ -137,7 +137,8 @@ class GPIObserver(InjectedChain):
     `from_poles` or `from_bandwidth`.
 
     m: number of the extended states. scale [rad/s]: near the bandwidth, by which states are scaled. poles (m +
-    2,) [rad/s]: of the error dynamics.
+    2,) [rad/s]: of the error dynamics. lead: number of integrators between disturbance and measurement, 2 from
+    an acceleration to an angle.
 
     >>> ba.GPIObserver.from_bandwidth(300.0, m=1).gains
     array([9.0e+02, 2.7e+05, 2.7e+07])

@@ -31,6 +31,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.feasibility import COUNTED
+from biped_adrc.analysis.half_step import AtTwoSteps
 from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.core.types import Array
@@ -39,7 +40,6 @@ from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell
 from biped_adrc.paper.runs import Runs, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, HEAVIER, declared
-from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 
 Pair = tuple[Outcome, Outcome]

@@ -37,6 +37,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from biped_adrc.analysis.certificate import IMPULSE
 from biped_adrc.analysis.feasibility import Feasibility
+from biped_adrc.analysis.half_step import AtTwoSteps
 from biped_adrc.analysis.signals import largest
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.core.types import Array
@@ -44,7 +45,6 @@ from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, MapPush, Member
-from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.integration import WalkPart, methods_of, runs_in_parts
 from biped_adrc.scenario.recording import Outcome, Walk

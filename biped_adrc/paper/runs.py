@@ -29,6 +29,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from biped_adrc.analysis.half_step import AtTwoSteps
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.processes import Task
@@ -42,7 +43,6 @@ from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare
 from biped_adrc.paper.pushes import MemberOutcome, PushCell, member_outcomes, member_walk, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario

@@ -34,12 +34,13 @@ from functools import partial
 from operator import attrgetter, methodcaller
 from typing import Any, NamedTuple
 
+from biped_adrc.analysis.half_step import ROUND_OFF, AtTwoSteps
 from biped_adrc.core.files import packaged
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
 from biped_adrc.paper import metrics, physical_laws, two_steps, values
 from biped_adrc.paper.runs import Runs
 from biped_adrc.paper.scenarios import declared
-from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps, Extremes
+from biped_adrc.paper.two_steps import Extremes
 
 ROOMS = (metrics, values, two_steps, physical_laws)
 """Modules of functions that claims.toml and checks.toml name."""

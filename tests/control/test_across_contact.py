@@ -269,3 +269,18 @@ def test_wrong_inner_controllers_and_values_are_refused(biped, gait, h):
         for engine in ("pinocchio", "compiled"):
             with pytest.raises(InputError, match="sampled time only"):
                 ba.walk(ba.Walker(biped, law), gait, 1, engine=engine)
+
+
+def test_what_a_law_reads_of_an_impulse_is_said_by_the_names_of_its_methods(h):
+    """A law that does not say so gets the names that it has to write; a name that no method has is refused."""
+    for reads, said in (
+        ((), "leave m.impulse out of its error in output, and name 'output' in reads_impulse"),
+        (("output",), "out of its error in correct, and name 'correct' in reads_impulse"),
+        (
+            ("output", "corect"),
+            r"reads_impulse of Own has \['corect'\], expected 'output' or 'correct'",
+        ),
+    ):
+        own = type("Own", (ba.NPDController,), {"reads_impulse": reads})(h)
+        with pytest.raises(InputError, match=said):
+            ImpactInvariant(own, innovation=True)

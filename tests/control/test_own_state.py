@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.control.around import Hold
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.source import source_of
+from biped_adrc.hardware.sensing import Sensor
 from tests.export.test_agreement import TOLERANCE, difference
 
 K_I, LEAST = 1e5, 1e-4
@@ -179,3 +181,106 @@ def test_another_state_after_an_impact_is_refused_by_both_engines(biped, gait, e
     assert run.status is ba.Status.RAISED
     said = r"Exchanging.jump \(test_own_state.py:\d+\) returned a Exchanged, expected a Integral"
     assert re.search(said, run.detail)
+
+
+class Pair(NamedTuple):
+    """State of a part with methods that return other states."""
+
+    x: float
+    y: np.ndarray
+
+
+class Sensing(Sensor):
+    """Exact sensors with a state."""
+
+    def start(self, q, v):
+        return Pair(0.0, v)
+
+    def reading(self, w, q, v):
+        return q, v
+
+
+class Detecting(ba.Touchdown):
+    """A detector that notices nothing."""
+
+    def start(self):
+        return Pair(0.0, np.zeros(2))
+
+    def notice(self, d, look):
+        return d, 0.0
+
+
+def of_plain_tuple(**methods):
+    """`WithNames` with a plain tuple of two as its state."""
+    names = {
+        "initial_state": lambda self, m: (np.zeros(4), 1.0),
+        "output": lambda self, s, m: WithNames.output(self, Integral(*s[:2]), m),
+        "correct": lambda self, s, m: s,
+        "predict": lambda self, s, m, u: s,
+        "jump": lambda self, s, after, swap: s,
+    }
+    return type("Plain", (WithNames,), names | methods)
+
+
+def longer(self, s, *more):
+    return (*s, 1.0)
+
+
+def exchanged(self, s, *more):
+    return Exchanged(s.waits, s.e)
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_a_state_that_no_longer_fits_is_refused_wherever_it_comes_from(biped, gait, engine):
+    """Sensors and detectors are tried at the start of a run, a jump at the impact. Each sentence names the
+    user's method with its line, also inside a wrapper or below a controller of the package.
+    """
+    h, noticing = gait.constraint, ba.SampledTime(1e-3, restart=False)
+    sensor = type("Own", (Sensing,), {"impact": lambda self, w, *more: Exchanged(*w)})()
+    late = type("Own", (Detecting,), {"touchdown": lambda self, d, *more: Exchanged(*d)})()
+    soon = type("Own", (Detecting,), {"notice": lambda self, d, look: (Exchanged(*d), 0.0)})()
+    observer = type("Own", (ba.GPIObserver,), {"reset": lambda self, z, *more: z[1:]})
+    npd, named = ba.NPDController(h), type("Own", (WithNames,), {"predict": exchanged})
+    jumping = type("Own", (WithNames,), {"jump": exchanged})
+    for said, law, parts in (
+        (r"Own.impact \(\S+:\d+\) returned a Exchanged, expected a Pair", npd, {"sensors": sensor}),
+        (
+            r"Own.touchdown \(\S+:\d+\) returned a Exch",
+            npd,
+            {"touchdown": late, "timing": noticing},
+        ),
+        (r"Own.notice \(\S+:\d+\) returned a Exch", npd, {"touchdown": soon, "timing": noticing}),
+        (
+            r"Plain.predict \(\S+:\d+\) returned a tuple of 3, expected a tuple of 2",
+            longer,
+            "predict",
+        ),
+        (r"Plain.jump \(\S+:\d+\) returned a tuple of 3, expected a tuple of 2", longer, "jump"),
+        (r"Hold \(Own\).predict \(\S+:\d+\) returned a Exchanged", Hold(named(h)), {}),
+        (r"Hold \(Own\).jump \(\S+:\d+\) returned a Exchanged", Hold(jumping(h)), {}),
+        (
+            r"ADRCController \(Own\).jump \(\S+:\d+\) returned an array of shape",
+            ba.ADRCController(h, observer.from_bandwidth(300.0, 1)),
+            {"timing": CLOCKS["continuous"]},
+        ),
+    ):
+        if isinstance(parts, str):
+            law, parts = of_plain_tuple(**{parts: law})(h), {}
+        walker = ba.Walker(biped, law, **({"timing": CLOCKS["sampled"]} | parts))
+        try:  # a jump ends the walk at its impact, all others end it before its start
+            text = ba.walk(walker, gait, 1, engine=engine).trajectory.detail
+        except InputError as error:
+            text = str(error)
+        assert re.match(said, text)
+
+
+def test_a_list_in_a_state_is_an_array(biped, gait):
+    """`predict` may return a list where the state had an array: the walk is that of the array."""
+
+    def listed(self, s, m, u):
+        d = WithNames.predict(self, s, m, u)
+        return d._replace(e=list(d.e))
+
+    law = type("Own", (WithNames,), {"predict": listed})
+    one, other = (walked(biped, gait, x, "sampled", "pinocchio") for x in (law, WithNames))
+    assert np.array_equal(one.trajectory.final_state, other.trajectory.final_state)
