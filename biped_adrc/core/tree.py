@@ -23,6 +23,9 @@ _T = TypeVar("_T")
 
 def flatten(tree: Any) -> Array:
     """The numbers of a tree as a vector (size,), one array or number after the other; None has no numbers."""
+    # first what a controller in Python has at each sample instant
+    if type(tree) is np.ndarray and tree.ndim == 1:
+        return tree
     if isinstance(tree, tuple):
         parts = [flatten(x) for x in tree if x is not None]
         return np.concatenate(parts) if parts else np.zeros(0)
@@ -80,6 +83,8 @@ class Layout(NamedTuple):
     def tree(self, x: Array) -> Any:
         """The tree whose numbers are x (.., size); its arrays are views of x, with the leading axes of x."""
         if self.kind is None:  # an array of the shape `parts`, or a number where that is ()
+            if self.parts == x.shape:
+                return x
             if self.parts:
                 return x.reshape(x.shape[:-1] + self.parts)
             # of a vector of symbols x[..., 0] were an array without axes, which no operation takes

@@ -143,8 +143,8 @@ class PythonTicks:
             # row: address to which machine code writes; q, v, parts: read-only arrays on that memory
             row, (q, v, *parts) = next(rows)
             function(K, inp, row)
-            t, step, start = _numbers_at(inp, 3).tolist()
-            x = _numbers_at(inp, 3 + nx)[3:]
+            numbers = _numbers_at(inp, 3 + nx)
+            (t, step, start), x = numbers[:3].tolist(), numbers[3:]
             # TERMS: number of arrays in the model's terms
             mode, terms = Mode(int(step), start), Reduction._make(parts[:TERMS])
             # the controller evaluates its reference at these q and v, and gets this point without a second call
@@ -153,9 +153,9 @@ class PythonTicks:
                 r.known = t, q, v, ReferencePoint._make(parts[TERMS:])
             m = semantics.measurement(walker, t, q, v, mode, body, terms)
             # as `semantics.tick` without sensors, motors and delay: the last p numbers of x are the torque
-            s, u = semantics.command(walker, frozen(s_layout.tree(x[2 * n : end].copy())), m)
-            result[: 2 * n], result[end:nx] = x[: 2 * n], u
-            result[2 * n : end] = flatten(walker.calls.predict(s, m, u))
+            s, u = semantics.command(walker, s_layout.tree(frozen(x[2 * n : end].copy())), m)
+            s = walker.calls.predict(s, m, u)
+            result[: 2 * n], result[2 * n : end], result[end:nx] = x[: 2 * n], flatten(s), u
 
         return tick
 
