@@ -119,7 +119,8 @@ def controller_inputs(
 class StepReading(NamedTuple):
     """The signals of the closed loop at one instant that verdicts and studies read.
 
-    To add a signal, add a line here, with its size, and a line in `of`.
+    To add a signal, add a line here, with its size ("p", "n", a number, or () for a single number), and a line
+    in `of`.
     """
 
     error: Annotated[Array, "p"]
@@ -130,9 +131,9 @@ class StepReading(NamedTuple):
     """Coordinates (n,) [rad], those of the joints first."""
     v_b: Annotated[Array, "p"]
     """Their rates (p,) [rad/s]."""
-    momentum: Annotated[Array, "x, z"]
+    momentum: Annotated[Array, 2]
     """m v_com of the plant (2,) [N s]."""
-    swing_foot: Annotated[Array, "x, z"]
+    swing_foot: Annotated[Array, 2]
     """Place (x, z) of the swing foot relative to the stance foot (2,) [m]."""
 
     @classmethod
@@ -167,9 +168,10 @@ class NodeRow(NamedTuple):
 @cache
 def node_layout(n: int, p: int) -> Layout:
     """The layout of a `NodeRow` as one vector, for n coordinates, p of them with a motor."""
-    # get_type_hints, include_extras: the annotations of the fields, with the name of each size
-    sizes, fields = {"p": p, "n": n, "x, z": 2}, get_type_hints(StepReading, include_extras=True)
-    reading = StepReading(*(np.zeros(sizes[x.__metadata__[0]]) for x in fields.values()))
+    # include_extras: the annotations with the size, "p", "n", a number or () for a single number
+    hints = get_type_hints(StepReading, include_extras=True)
+    sizes = (hints[name].__metadata__[0] for name in StepReading._fields)
+    reading = StepReading(*(np.zeros({"p": p, "n": n}.get(size, size)) for size in sizes))
     return Layout.of(NodeRow(np.zeros(()), np.zeros(()), np.zeros(2), reading))
 
 

@@ -146,6 +146,10 @@ class Loop(Protocol):
         """s after the controller's jump to the measurement m where `fires` is 1 (its detector has noticed a
         touchdown), else s as it is."""
 
+    def checked(self, part: Any, method: str, before: Any, after: Any) -> Any:
+        """The state `after` that a method of a sensor or detector returned; it has to have the layout of the
+        state `before`."""
+
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:

@@ -186,7 +186,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     if tail.belief is not None:  # structure: whether there is a belief; its content is numbers
         m, s, w, b = noticed(loop, k, t, s, tail, q, v, mode)
     else:
-        b, w = None, k.sense(tail.sensors, q, v)
+        b, w = None, loop.checked(k.sensors, "sense", tail.sensors, k.sense(tail.sensors, q, v))
         m = loop.measure(t, *k.reading(w, q, v), mode)
     # the controller acts: correct, output, limits, queue of torques, predict
     s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
@@ -271,13 +271,13 @@ def after_contact(
     if k is not None:
         tail = tail._replace(line=tail.line.relabelled(loop.swap))
         if k.touchdown is not None:
-            belief = unnoticed(k.touchdown, tail.belief, t)
+            belief = unnoticed(loop, k.touchdown, tail.belief, t)
             return flatten(State(q_plus, v_plus, s, tail._replace(belief=belief)))
         if k.sensors is not None:
             # the last measured rates, mapped by the nominal model's impact
             expected = loop.nominal.impact(*k.reading(tail.sensors, q, v)).v
             w = k.sensors.impact(tail.sensors, q_plus, v_plus, expected)
-            tail = tail._replace(sensors=w)
+            tail = tail._replace(sensors=loop.checked(k.sensors, "impact", tail.sensors, w))
         reading = k.reading(tail.sensors, q_plus, v_plus)
     s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.swap)
     return flatten(State(q_plus, v_plus, s, tail))
@@ -322,12 +322,13 @@ def noticed(
     # while other is 1, the foot that the controller takes for the swing foot is the stance foot
     if k.touchdown.needs_force:
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
-    w = k.sense(tail.sensors, q_c, v_c)
+    w = loop.checked(k.sensors, "sense", tail.sensors, k.sense(tail.sensors, q_c, v_c))
     q_seen, v_seen = k.reading(w, q_c, v_c)
     # `foot` is what a real detector may use; the plant's own `other`, step and time are for simulated faults
     foot, since = loop.nominal.swing_foot(q_seen), t - mode.start
     look = Look(t, t - old.start, foot, force, old.other, mode.step, since)
-    d, fires = k.touchdown.notice(old.d, look)
+    after = k.touchdown.notice(old.d, look)
+    d, fires = loop.checked(k.touchdown, "notice", (old.d, 0.0), after)
     # fires is 1.0 or 0.0, on symbols an expression: arithmetic in place of `if fires: other = 1 - other`
     other = old.other + fires * (1.0 - 2.0 * old.other)
     step: Any = old.step + fires
@@ -335,7 +336,8 @@ def noticed(
     q_c, v_c = in_other_names(loop, other, q, v)
     # by the new names the rates just measured are R v_seen: what the sensors expect after this exchange
     if k.sensors is not None:
-        w = chosen(fires, k.sensors.impact(w, q_c, v_c, loop.nominal.R @ v_seen), w)
+        after = k.sensors.impact(w, q_c, v_c, loop.nominal.R @ v_seen)
+        w = chosen(fires, loop.checked(k.sensors, "impact", w, after), w)
     m = loop.measure(t, *k.reading(w, q_c, v_c), mode._replace(step=step, start=start))
     return m, loop.jumped(fires, s, m), w, Belief(other, step, start, d)
 
@@ -371,8 +373,9 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
     return xi if b is None else chosen(b.other, relabelled(xi, loop.swap), xi)
 
 
-def unnoticed(touchdown: Touchdown, b: Belief, t: float) -> Belief:
+def unnoticed(loop: Loop, touchdown: Touchdown, b: Belief, t: float) -> Belief:
     """The belief b just after a true touchdown at t [s], at which the plant's legs exchange their names and the
     controller keeps its own: `other` changes, and the detector's memory d may."""
     other = 1.0 - b.other
-    return b._replace(other=other, d=touchdown.touchdown(b.d, other, t))
+    d = loop.checked(touchdown, "touchdown", b.d, touchdown.touchdown(b.d, other, t))
+    return b._replace(other=other, d=d)

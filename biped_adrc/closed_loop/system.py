@@ -29,7 +29,7 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant, State
-from biped_adrc.control.base import Controller, Measurement, check_methods, nested
+from biped_adrc.control.base import Controller, Measurement, check_methods, has_own_class, nested
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
@@ -297,6 +297,19 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
         """s after the controller's jump to m where `fires` is 1 (it notices a touchdown), else s as it is."""
         return self.calls.jump(s, m, self.swap) if fires > 0.5 else s
+
+    @cached_property
+    def _own_hardware(self) -> bool:
+        """Whether a class of the user's is among the sensors or is the detector."""
+        parts = (*getattr(self.sensors, "parts", (self.sensors,)), self.touchdown)
+        return any(has_own_class(part) for part in parts if part is not None)
+
+    def checked(self, part: Any, method: str, before: Any, after: Any) -> Any:
+        """The state `after` that a method of a sensor or detector returned, with arrays of floats. Raises
+        InputError, with the user's line, for another class or shape than the state `before`."""
+        if part is None or not self._own_hardware:
+            return after
+        return frozen(returned_tree(after, Layout.of(before), part, method, finite=False))
 
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode

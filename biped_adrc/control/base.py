@@ -97,6 +97,16 @@ _OTHERS = "expected one such as NPDController or ADRCController"
 """End of a message on a controller that lacks something: which controllers have it."""
 
 
+_GONE = {
+    **dict.fromkeys(
+        ("projected_output", "projected_correct"),
+        "read m.impulse in output or correct, and name the method in reads_impulse",
+    ),
+    "output_change": "write impulse_change(m), which reads m.impulse",
+}
+"""Names of methods that are gone, and what stands in their place."""
+
+
 class Controller(Part):
     """Base of all controllers: write `output`, and the other methods that the controller needs.
 
@@ -115,6 +125,12 @@ class Controller(Part):
     """
 
     SUCH_AS = "NPDController(gait.constraint)"
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Raise InputError for a class that writes a method of a name that is gone."""
+        super().__init_subclass__(**kwargs)
+        for name in vars(cls).keys() & _GONE.keys():
+            raise InputError(f"{cls.__name__} writes {name}, which is gone; {_GONE[name]}")
 
     needs_body: ClassVar[bool] = False
     """Whether the controller reads `Measurement.body`, which is computed only then."""

@@ -88,9 +88,9 @@ class ImpactInvariant(ContactWindow):
         # raises InputError where there is none; `_has_no` below raises it always
         tracked_constraint(self.inner, why)
         reads = self.inner.reads_impulse
-        if unknown := set(reads) - {"output", "correct"}:
+        if not isinstance(reads, tuple) or set(reads) - {"output", "correct"}:
             raise InputError(
-                f"reads_impulse of {spoken(self.inner)} has {sorted(unknown)}, expected 'output' or 'correct'"
+                f"reads_impulse of {spoken(self.inner)} is {reads!r}, expected a tuple of 'output', 'correct'"
             )
         how = "leave m.impulse out of its error in {0}, and name '{0}' in reads_impulse"
         if "output" not in reads:

@@ -231,7 +231,9 @@ def _numbers_returned(
         array = np.empty(0, dtype=object)
     sentence = _sentence(part, method, field)
     expected = "a row of real numbers" if shape is None else f"{shape}, real numbers"
-    if array.dtype.kind not in "fiu":  # neither floats nor whole numbers with or without sign
+    if (
+        array.dtype.kind not in "fiub"
+    ):  # neither floats, whole numbers, nor the 1 or 0 of a comparison
         forgot = "; is a return statement missing?" if found is None and not field else ""
         shown = f"{found.dtype} numbers" if isinstance(found, np.ndarray) else _shown(found)
         raise InputError(f"{sentence} {shown}, expected {expected}{forgot}")

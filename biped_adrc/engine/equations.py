@@ -124,6 +124,10 @@ class SymbolicLoop(NamedTuple):
         """
         return self.trace(chosen)(fires, self.calls.jump(s, m, self.swap), s)
 
+    def checked(self, part: Any, method: str, before: Any, after: Any) -> Any:
+        """The state `after` that a method of a part returned, of the layout of the state `before`."""
+        return _alike(before, after, f"{type(part).__name__}.{method}")
+
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
@@ -190,16 +194,18 @@ class SymbolicFunction(NamedTuple):
     """Expression of K and inp: where it is not above 0, out is zero. None: out is always computed."""
 
 
-def _jumped(jump: Callable[..., Any], law: type, s: Any, *more: object) -> Any:
-    """The result of a controller's jump on symbols. It alone is not tried at the start of a run, so here it has
-    to have the layout of the state s; where it has not, the walk runs in Python, which names the line.
+def _alike(before: Any, after: Any, what: str) -> Any:
+    """The state `after` on symbols. Raises NotCompiled for another layout than that of the state `before`, on
+    which the walk runs in Python, which names the line. what: the method that returned it.
     """
-    result = jump(s, *more)
-    if Layout.of(result) != Layout.of(s):
-        raise Located(
-            f"{law.__name__}.jump gives a state of another class or shape than initial_state"
-        )
-    return result
+    if Layout.of(after) != Layout.of(before):
+        raise Located(f"{what} gives a state of another class or shape than at the start")
+    return after
+
+
+def _jumped(jump: Callable[..., Any], law: type, s: Any, *more: object) -> Any:
+    """The result of a controller's jump on symbols, which alone is not tried at the start of a run."""
+    return _alike(s, jump(s, *more), f"{law.__name__}.jump")
 
 
 @dataclass(frozen=True)

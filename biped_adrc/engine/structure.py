@@ -6,7 +6,8 @@ structure: classes, integers and shapes of arrays, without the values of floats.
 to be pure, as in JAX: what they read besides their arguments and fields, such as a function or a constant of a
 module, is read once, when they are compiled. A class that is defined a second time is another structure.
 Another process finds code on disk by the name that `lasting` makes of a structure, where all classes in it are
-this package's own.
+this package's own. So a process that replaces a function or a constant of this package breaks the rule for
+others too, unless it has a folder of its own for code (BIPED_ADRC_CACHE).
 """
 
 import sys
@@ -17,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.core.checks import LIBRARIES, PACKAGE, is_users
+from biped_adrc.core.checks import LIBRARIES, PACKAGE
 from biped_adrc.core.once import once
 from biped_adrc.core.part import content, is_part
 from biped_adrc.core.tree import Layout
@@ -76,12 +77,11 @@ def lasting(key: Hashable) -> str:
     """Make a name of a structure, a hash, that is the same in every process with the same versions of the
     libraries; code on disk is found by it.
 
-    Empty for a structure with classes or functions of the user's, and in a process in which one of this
-    package's functions was replaced: nobody can say there that equal names mean equal code.
+    Empty for a structure with classes or functions of the user's.
     """
     try:
         # `_spelled`, the structure as text, raises LookupError for a class or function of the user's
-        return "" if _replaced() else hash_of(_spelled(key), str(numerical_versions()))
+        return hash_of(_spelled(key), str(numerical_versions()))
     except LookupError:
         return ""
 
@@ -99,19 +99,6 @@ def _spelled(key: Hashable) -> str:
     elif key is None or isinstance(key, int | float | str | bytes | Enum | np.generic):
         return repr(key)
     raise LookupError(key)
-
-
-def _replaced() -> bool:
-    """Whether the user has replaced a function or method of this package by one of his own in this process."""
-    for name, module in list(sys.modules.items()):
-        for x in list(vars(module).values()) if name.startswith("biped_adrc.") else ():
-            own = isinstance(x, type) and x.__module__ == name
-            for member in vars(x).values() if own else (x,):
-                # the globals of a function are those of the module in which it was written
-                home = member.__globals__ if type(member) is types.FunctionType else vars(module)
-                if home is not vars(module) and is_users(home.get("__file__") or ""):
-                    return True
-    return False
 
 
 def is_library(module: types.ModuleType) -> bool:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.tree import Layout, returned_tree
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.hardware.motors import Line, TorqueLine
@@ -92,8 +93,10 @@ def _tried(sensors: Sensor, q: Array, v: Array) -> Any:
     returned_tree(sensors.sense(frozen(w), q, v), Layout.of(w), sensors, "sense")
     # v a second time for the rates by the nominal model's impact
     returned_tree(sensors.impact(frozen(w), q, v, v), Layout.of(w), sensors, "impact")
-    for x in sensors.reading(frozen(w), q, v):
-        returned_tree(x, Layout.of(q), sensors, "reading")
+    found = sensors.reading(frozen(w), q, v)
+    returned_tree(found, Layout.of((q, v)), sensors, "reading")
+    if not all(isinstance(x, np.ndarray) for x in found):
+        raise InputError(f"{type(sensors).__name__}.reading returned a list, expected two arrays")
     return w
 
 
@@ -110,6 +113,6 @@ def _started(detector: Touchdown, step: float, start: float) -> Any:
     returned_tree(after, Layout.of(d), detector, "touchdown")
     # the swing foot stands behind the stance foot, no force is on it, and the labels are right
     look = Look(start, 0.0, np.array([-1.0, 0.0]), 0.0, 0.0, step, 0.0)
-    after, _ = detector.notice(frozen(d), look)
-    returned_tree(after, Layout.of(d), detector, "notice")
+    # a pair: the state d, and 1 or 0
+    returned_tree(detector.notice(frozen(d), look), Layout.of((d, 0.0)), detector, "notice")
     return d

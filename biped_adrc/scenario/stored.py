@@ -101,9 +101,21 @@ def load_walk(path: Path | str) -> Walk:
         gait, scenario = reader.made(record["gait"]), None
         # no scenario, or one that names files or classes which are not at hand: the walk has none then
         with suppress(KeyError, TypeError, InputError):
-            scenario = Scenario(**trajectory.settings["scenario"])
+            scenario = _scenario(trajectory.settings)
         signals = _signals(arrays, walker, trajectory)
         return Walk(walker, gait, trajectory, scenario, signals, remarks)
+
+
+def _scenario(settings: Mapping[str, Any]) -> Scenario:
+    """The scenario of a file. Files without names of the states are older than relative errors of bodies: the
+    factor 1.2 in them is the error 0.2 now.
+    """
+    record = dict(settings["scenario"])
+    if "states" not in settings and "errors" in record:
+        by_body = {k: x for k, x in record["errors"].items() if isinstance(x, dict)}
+        errors = {k: {name: x - 1.0 for name, x in by.items()} for k, by in by_body.items()}
+        record["errors"] = record["errors"] | errors
+    return Scenario(**record)
 
 
 def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:

@@ -278,7 +278,7 @@ def test_what_a_law_reads_of_an_impulse_is_said_by_the_names_of_its_methods(h):
         (("output",), "out of its error in correct, and name 'correct' in reads_impulse"),
         (
             ("output", "corect"),
-            r"reads_impulse of Own has \['corect'\], expected 'output' or 'correct'",
+            r"reads_impulse of Own is \('output', 'corect'\), expected a tuple of",
         ),
     ):
         own = type("Own", (ba.NPDController,), {"reads_impulse": reads})(h)

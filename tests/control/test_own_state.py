@@ -230,48 +230,86 @@ def exchanged(self, s, *more):
     return Exchanged(s.waits, s.e)
 
 
+def of_sensors(**methods):
+    return {"sensors": type("Own", (Sensing,), methods)()}
+
+
+def of_detector(**methods):
+    detector = type("Own", (Detecting,), methods)()
+    return {"touchdown": detector, "timing": ba.SampledTime(1e-3, restart=False)}
+
+
+def exchanged_later(self, d, look):
+    return (d if look.t < 0.2 else Exchanged(*d)), 0.0
+
+
+WRONG_PARTS = {
+    "Own.impact (L) returned a Exchanged, expected a Pair": of_sensors(
+        impact=lambda self, w, *more: Exchanged(*w)
+    ),
+    "Own.reading (L) returned a ndarray, expected a tuple of 2": of_sensors(
+        reading=lambda self, w, q, v: q
+    ),
+    "Own.reading returned a list, expected two arrays": of_sensors(
+        reading=lambda self, w, q, v: (list(q), list(v))
+    ),
+    "Own.touchdown (L) returned a Exchanged, expected a Pair": of_detector(
+        touchdown=lambda self, d, *more: Exchanged(*d)
+    ),
+    "Own.notice (L) returned a Exchanged, expected a Pair": of_detector(notice=exchanged_later),
+    "Own.notice (L) returned a ndarray, expected a tuple of 2": of_detector(
+        notice=lambda self, d, look: d.y
+    ),
+}
+WRONG_LAWS = {
+    "Plain.predict (L) returned a tuple of 3, expected a tuple of 2": of_plain_tuple(
+        predict=longer
+    ),
+    "Plain.jump (L) returned a tuple of 3, expected a tuple of 2": of_plain_tuple(jump=longer),
+    "Hold (Own).predict (L) returned a Exchanged, expected a Integral": lambda h: Hold(
+        type("Own", (WithNames,), {"predict": exchanged})(h)
+    ),
+    "Hold (Own).jump (L) returned a Exchanged, expected a Integral": lambda h: Hold(
+        type("Own", (WithNames,), {"jump": exchanged})(h)
+    ),
+}
+
+
+def told(walker, gait, engine):
+    """The sentence about a walk of one step, with L in place of file and line."""
+    try:  # a jump, and what begins later, end the walk; all others let it not begin
+        text = ba.walk(walker, gait, 1, engine=engine).trajectory.detail
+    except InputError as error:
+        text = str(error)
+    return re.sub(r"\(test_own_state.py:\d+\)", "(L)", text)
+
+
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
 def test_a_state_that_no_longer_fits_is_refused_wherever_it_comes_from(biped, gait, engine):
-    """Sensors and detectors are tried at the start of a run, a jump at the impact. Each sentence names the
-    user's method with its line, also inside a wrapper or below a controller of the package.
+    """Each sentence names the user's method with its line, also inside a wrapper or below a controller of the
+    package.
     """
-    h, noticing = gait.constraint, ba.SampledTime(1e-3, restart=False)
-    sensor = type("Own", (Sensing,), {"impact": lambda self, w, *more: Exchanged(*w)})()
-    late = type("Own", (Detecting,), {"touchdown": lambda self, d, *more: Exchanged(*d)})()
-    soon = type("Own", (Detecting,), {"notice": lambda self, d, look: (Exchanged(*d), 0.0)})()
+    h, ticks = gait.constraint, {"timing": CLOCKS["sampled"]}
+    for said, parts in WRONG_PARTS.items():
+        walker = ba.Walker(biped, ba.NPDController(h), **(ticks | parts))
+        assert told(walker, gait, engine).startswith(said)
+    for said, law in WRONG_LAWS.items():
+        assert told(ba.Walker(biped, law(h), **ticks), gait, engine).startswith(said)
     observer = type("Own", (ba.GPIObserver,), {"reset": lambda self, z, *more: z[1:]})
-    npd, named = ba.NPDController(h), type("Own", (WithNames,), {"predict": exchanged})
-    jumping = type("Own", (WithNames,), {"jump": exchanged})
-    for said, law, parts in (
-        (r"Own.impact \(\S+:\d+\) returned a Exchanged, expected a Pair", npd, {"sensors": sensor}),
-        (
-            r"Own.touchdown \(\S+:\d+\) returned a Exch",
-            npd,
-            {"touchdown": late, "timing": noticing},
-        ),
-        (r"Own.notice \(\S+:\d+\) returned a Exch", npd, {"touchdown": soon, "timing": noticing}),
-        (
-            r"Plain.predict \(\S+:\d+\) returned a tuple of 3, expected a tuple of 2",
-            longer,
-            "predict",
-        ),
-        (r"Plain.jump \(\S+:\d+\) returned a tuple of 3, expected a tuple of 2", longer, "jump"),
-        (r"Hold \(Own\).predict \(\S+:\d+\) returned a Exchanged", Hold(named(h)), {}),
-        (r"Hold \(Own\).jump \(\S+:\d+\) returned a Exchanged", Hold(jumping(h)), {}),
-        (
-            r"ADRCController \(Own\).jump \(\S+:\d+\) returned an array of shape",
-            ba.ADRCController(h, observer.from_bandwidth(300.0, 1)),
-            {"timing": CLOCKS["continuous"]},
-        ),
+    law = ba.ADRCController(h, observer.from_bandwidth(300.0, 1))
+    text = told(ba.Walker(biped, law), gait, engine)
+    assert text.startswith(
+        "ADRCController (Own).jump (L) returned an array of shape (2, 4), expected"
+    )
+
+
+def test_a_method_of_a_name_that_is_gone_is_refused_with_the_new_one():
+    for name, said in (
+        ("projected_output", "read m.impulse in output or correct"),
+        ("output_change", r"write impulse_change\(m\)"),
     ):
-        if isinstance(parts, str):
-            law, parts = of_plain_tuple(**{parts: law})(h), {}
-        walker = ba.Walker(biped, law, **({"timing": CLOCKS["sampled"]} | parts))
-        try:  # a jump ends the walk at its impact, all others end it before its start
-            text = ba.walk(walker, gait, 1, engine=engine).trajectory.detail
-        except InputError as error:
-            text = str(error)
-        assert re.match(said, text)
+        with pytest.raises(InputError, match=f"Own writes {name}, which is gone; {said}"):
+            type("Own", (ba.NPDController,), {name: lambda self: None})
 
 
 def test_a_list_in_a_state_is_an_array(biped, gait):

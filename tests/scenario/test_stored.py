@@ -116,6 +116,22 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
     command("plot", path, "-o", "figure.png")
 
 
+def test_factors_of_an_older_file_are_relative_errors(tmp_path: Path) -> None:
+    """A file without names of the states has factors of masses where there are errors now: 1.2 is 0.2, and the
+    scenario walks the robot of the file.
+    """
+    asked = ba.Scenario(
+        "NPD", errors={"mass": {"torso": 0.2}, "mass_width": 0.0}, run={"impacts": 1}
+    )
+    path = ba.walk_scenario(asked).save(tmp_path / "x")
+    old = load(path, lambda step, start: ba.Mode(int(step), start))
+    del old.settings["states"]
+    old.settings["scenario"]["errors"]["mass"]["torso"] = 1.2
+    walk = ba.load_walk(save(old, tmp_path / "old", old.settings, load_beside(path)))
+    plant = ba.walk_scenario(walk.scenario).walker.plant
+    assert plant.weight == walk.walker.plant.weight
+
+
 def test_walks_of_one_controller_are_named_by_their_files(tmp_path: Path) -> None:
     """The walk of one file is named by its controller; two of the same controller have their paths too. A walk
     made again of its scenario and trajectory is the same; a file that does not have the walker is refused.
