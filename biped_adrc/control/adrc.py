@@ -27,12 +27,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.tracking import (
-    TABLE_II,
-    Gains,
-    ObservingController,
-    tracking_torque,
-)
+from biped_adrc.control.tracking import TABLE_II, Gains, ObservingController, tracking_torque
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import ErrorSystem, Estimate, Observer, ResetPolicy

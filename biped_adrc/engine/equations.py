@@ -46,15 +46,7 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.not_compiled import Located, NotCompiled
 from biped_adrc.engine.numbers import NONE, Reading, WalkerNumbers
-from biped_adrc.engine.symbols import (
-    Scalar,
-    Vector,
-    column,
-    maximum,
-    minimum,
-    symbols_of,
-    where,
-)
+from biped_adrc.engine.symbols import Scalar, Vector, column, maximum, minimum, symbols_of, where
 from biped_adrc.engine.tracer import Tracer, apply
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.model.planar_robot import PlanarRobot

@@ -21,7 +21,7 @@ from biped_adrc.core.tree import Layout, returned_tree
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.hardware.motors import Line, TorqueLine
 from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.hardware.touchdown import Belief, Look, Touchdown
+from biped_adrc.hardware.touchdown import Belief, Touchdown
 
 
 class Tail(NamedTuple):
@@ -71,8 +71,9 @@ class HeldParts(NamedTuple):
         w = None if self.sensors is None else _tried(self.sensors, q, v)
         belief, touchdown = None, self.touchdown
         if touchdown is not None:
-            # 0: its names of the legs are right. _started: starts it, and calls its methods once as a test
-            belief = Belief(0.0, float(step), float(start), _started(touchdown, step, start))
+            # checked, since it may be a user's: None means that every structure of arrays is right
+            d = returned_tree(touchdown.start(), None, touchdown, "start")
+            belief = Belief(0.0, float(step), float(start), d)  # 0: its names of the legs are right
         # the last one is a `Line` of zeros
         return Tail(np.zeros(self.own), belief, w, self.line.tree(np.zeros(self.line.size)))
 
@@ -85,34 +86,14 @@ def motor_torque(line: Line) -> Array:
 def _tried(sensors: Sensor, q: Array, v: Array) -> Any:
     """Start sensors, and call each method of theirs once as a test; returns their state w at the start.
 
-    Raises InputError where `sense` or `impact` returns a state of another class or shape than `start`, or
-    `reading` other shapes than those of q and v.
+    Raises InputError where `sense` returns a state of another class or shape than `start`, or `reading` other
+    shapes than those of q and v.
     """
     # returned_tree(result, layout, part, method) checks a result; frozen arrays show a method that writes to w
     w = returned_tree(sensors.start(q, v), None, sensors, "start")
     returned_tree(sensors.sense(frozen(w), q, v), Layout.of(w), sensors, "sense")
-    # v a second time for the rates by the nominal model's impact
-    returned_tree(sensors.impact(frozen(w), q, v, v), Layout.of(w), sensors, "impact")
     found = sensors.reading(frozen(w), q, v)
     returned_tree(found, Layout.of((q, v)), sensors, "reading")
     if not all(isinstance(x, np.ndarray) for x in found):
         raise InputError(f"{type(sensors).__name__}.reading returned a list, expected two arrays")
     return w
-
-
-def _started(detector: Touchdown, step: float, start: float) -> Any:
-    """Start a detector of touchdowns, and call each method of it once as a test; returns its state d.
-
-    step: number of the single support, start [s]: time at which it began. Raises InputError where a method
-    returns a state of another class or shape than `start`.
-    """
-    d = returned_tree(detector.start(), None, detector, "start")
-    after = detector.touchdown(
-        frozen(d), 1.0, start
-    )  # 1: the labels of controller and plant differ
-    returned_tree(after, Layout.of(d), detector, "touchdown")
-    # the swing foot stands behind the stance foot, no force is on it, and the labels are right
-    look = Look(start, 0.0, np.array([-1.0, 0.0]), 0.0, 0.0, step, 0.0)
-    # a pair: the state d, and 1 or 0
-    returned_tree(detector.notice(frozen(d), look), Layout.of((d, 0.0)), detector, "notice")
-    return d
