@@ -98,13 +98,7 @@ def parts(loop: Loop, x: Array) -> State:
 
 
 def measurement(
-    loop: Loop,
-    t: float,
-    q: Array,
-    v: Array,
-    mode: Mode,
-    body: bool,
-    terms: Reduction | None = None,
+    loop: Loop, t: float, q: Array, v: Array, mode: Mode, body: bool, terms: Reduction | None = None
 ) -> Measurement:
     """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 

@@ -93,11 +93,7 @@ TABLE_II = Gains(5000.0, 50.0)
 
 
 def tracking_torque(
-    gains: Gains,
-    r: ReferencePoint,
-    x: Estimate,
-    m: Measurement,
-    solve_theta: bool,
+    gains: Gains, r: ReferencePoint, x: Estimate, m: Measurement, solve_theta: bool
 ) -> Array:
     """Torque u (p,) [N m] of (20) or (28), by the reference r now and the joints' x1, x2, xi in x.
 

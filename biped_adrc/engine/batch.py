@@ -324,7 +324,7 @@ def _strides(
     while left > 0 and status is Status.COMPLETED:
         status, part = run.stride(min(left, _AT_ONCE) if read else left)
         parts, rows, left = [*parts, part], [*rows, run.rows().copy()], left - len(part)
-    strikes = np.vstack(parts)
+    strikes = parts[0] if len(parts) == 1 else np.vstack(parts)
     times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
     table = (np.vstack(rows) if len(rows) > 1 else rows[0]) if read else None
     return BatchWalk(status, "", times, before, after, run["t"], COMPILED, mode.start, table)

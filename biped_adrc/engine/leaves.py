@@ -33,16 +33,16 @@ def floats(tree: object) -> list[float]:
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
     if isinstance(tree, Layout):  # a large tuple without floats, so this saves time
         return []
-    return _floats(tree) if is_part(tree) else _floats_inside(tree)
+    return _floats(tree) if is_part(tree) else floats_inside(tree)
 
 
-def _floats_inside(tree: object) -> list[float]:
+def floats_inside(tree: object) -> list[float]:
     """The numbers of the members of a tuple, list or part, one after the other; none of any other object."""
     return [number for _, x in _inside(tree) for number in floats(x)]
 
 
-_floats = once(_floats_inside)
-"""`_floats_inside` of a part, which never changes, so it is computed once for each."""
+_floats = once(floats_inside)
+"""`floats_inside` of a part, which never changes, so it is computed once for each."""
 
 
 def paths(tree: object) -> list[str]:

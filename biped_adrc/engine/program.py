@@ -36,11 +36,11 @@ from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
-from biped_adrc.engine.leaves import floats
+from biped_adrc.engine.leaves import floats, floats_inside
 from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.numbers import Reading, WalkerNumbers, numbers_of
-from biped_adrc.engine.structure import structure
+from biped_adrc.engine.structure import alike, structure
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
@@ -244,6 +244,13 @@ class CompiledWalker:
         run["t_first"], run["pulled"] = t_first, push.pulls
         return cls(walker, still.program, run, label, still)
 
+    @cached_property
+    def _first(self) -> int:
+        """Index in K of the controller's first number; K has the numbers in the order of the fields, those of
+        plant and model before."""
+        numbers = self.program.numbers
+        return len(floats(numbers[: numbers._fields.index("controller")]))
+
     def like(self, walker: Walker) -> CompiledWalker | None:
         """The compiled form of a walker that differs from this one in its disturbance and in numbers of its
         controller alone; None where `of` has to look: its controller has another structure or NaN, or other
@@ -253,14 +260,12 @@ class CompiledWalker:
             return self._under(walker, self.still, self.plan["t_first"], self.label)
         program, law = self.program, walker.law
         old, numbers = program.numbers, program.numbers._replace(controller=law)
-        own, K = floats(law), program.K.copy()
+        own, K = np.array(floats_inside(law)), program.K.copy()
         # an outer loop decides what the curve is, and gains the coordinates of an exponential method
         entangled = isinstance(law, OuterLoop) or old.split is not None
-        if entangled or structure(law) != structure(old.controller) or np.any(np.isnan(own)):
+        if entangled or not alike(law, old.controller) or np.any(np.isnan(own)):
             return None
-        # K has the numbers in the order of the fields, those of plant and model before the controller's
-        first = len(floats(numbers[: numbers._fields.index("controller")]))
-        K[first : first + len(own)] = own
+        K[self._first : self._first + len(own)] = own
         still = self.still._replace(
             program=replace(program, numbers=numbers), tables={**self.still.tables, "K": K}
         )

@@ -64,6 +64,17 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
     return type(tree), tree, structure(inside, True) if inside else None
 
 
+def alike(one: Any, other: Any) -> bool:
+    """Whether two values have equal structures; what both share, such as an observer, is not looked into."""
+    if one is other:
+        return True
+    # HIDDEN: robots and others that are no tree
+    if type(one) is not type(other) or not is_part(one) or isinstance(one, HIDDEN):
+        return structure(one) == structure(other)
+    members = content(other)
+    return all(alike(x, members[name]) for name, x in content(one).items())
+
+
 @once
 def _of_part(part: Any, exact: bool) -> Hashable:
     """The structure of a part: its class, and the structures of its fields and derived numbers by name.

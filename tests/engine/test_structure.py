@@ -21,7 +21,7 @@ from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.program import push_code
-from biped_adrc.engine.structure import lasting, structure
+from biped_adrc.engine.structure import alike, lasting, structure
 from tests.control.conforms import call
 
 HEAD = """
@@ -84,6 +84,20 @@ def test_numbers_are_no_structure(make):
     assert one != shorter
     assert structure((make([1.5]),), exact=True) != structure((make([2.5]),), exact=True)
     assert len({structure(x) for x in (1, True, "1", None, 1.0)}) == 5
+
+
+def test_alike_is_the_equality_of_structures(gait):
+    """For controllers that differ in numbers, in a truth value, in the length of an array or in their class."""
+    h, per_joint = gait.constraint, np.full(4, 50.0)
+    laws = [
+        *(ba.NPDController(h), ba.NPDController(h, ba.Gains(90.0, 5.0))),
+        *(ba.NPDController(h, solve_theta=False), ba.NPDController(h, ba.Gains(90.0, per_joint))),
+        *(ba.ADRCController(h), ba.ADRCController(h, ba.GPIObserver.from_bandwidth(90.0, 7))),
+        *(ba.ADRCController(h, ba.GPIObserver.from_bandwidth(90.0, 2)), h, 1.0, None, (h, 1)),
+    ]
+    found = [[alike(one, other) for other in laws] for one in laws]
+    assert found == [[structure(one) == structure(other) for other in laws] for one in laws]
+    assert found[0][:4] == [True, True, False, False]
 
 
 Gain = float

@@ -153,13 +153,7 @@ def push(r: Run, x: float, z: float) -> None:
 
 @unit
 def samples(
-    walks: Ints,
-    count: int,
-    width: int,
-    inputs: Array,
-    states: Array,
-    codes: Ints,
-    impacts: Ints,
+    walks: Ints, count: int, width: int, inputs: Array, states: Array, codes: Ints, impacts: Ints
 ) -> int:
     """Move each of `count` walks whose code is COMPLETED by one sample. Returns how many of them ended a single
     support, by an impact or with the walk.
