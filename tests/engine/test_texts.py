@@ -12,7 +12,7 @@ import pytest
 
 from biped_adrc.analysis.ground_force import LOOPS
 from biped_adrc.core.errors import ModelError
-from biped_adrc.engine.kernels import load
+from biped_adrc.engine.kernels import load, write
 from biped_adrc.engine.machine import load_or_compile
 
 
@@ -58,3 +58,10 @@ def test_without_numba_a_damaged_text_is_refused(damaged, monkeypatch):
     monkeypatch.setattr(load, "find_spec", lambda name: None)
     with pytest.raises(ModelError, match=r"demands.ll is damaged .* reinstall biped-adrc"):
         load.loops.__wrapped__(LOOPS)  # the function without its cache
+
+
+def test_a_semicolon_between_quotes_is_no_comment():
+    """Bytes of a constant of numba's may have one; what follows a semicolon elsewhere is left out."""
+    assert write.plain('@x = [3 x i8] c"a;b" ; [#uses=1]\n; all\nret void ; "x') == (
+        '@x = [3 x i8] c"a;b"\n\nret void'
+    )

@@ -91,17 +91,19 @@ def written(files: tuple[str, ...]) -> str:
     llvm = re.sub("numba_nextafter", "nextafter", str(linked))
     # what would raise an error in Python is never called, but would be missing where the text is linked
     llvm = _ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
-    llvm = _optimised(f"{_plain(llvm)}\ndeclare void @llvm.trap()\n")
-    return _plain(re.sub(r"^(source_filename|target) .*\n", "", llvm, flags=re.MULTILINE))
+    llvm = _optimised(f"{plain(llvm)}\ndeclare void @llvm.trap()\n")
+    return plain(re.sub(r"^(source_filename|target) .*\n", "", llvm, flags=re.MULTILINE))
 
 
-def _plain(llvm: str) -> str:
+def plain(llvm: str) -> str:
     """LLVM's text without hints to the optimiser, which each version of LLVM writes in another way, and without
     comments.
     """
     llvm = re.sub(r"^.*@llvm\.lifetime\..*\n", "", llvm, flags=re.MULTILINE)
     llvm = re.sub(r"^(attributes #\d+ = ).*$", r"\1{ nounwind }", llvm, flags=re.MULTILINE)
-    return HINTS.sub("", re.sub(r" *;.*$", "", llvm, flags=re.MULTILINE))
+    # a semicolon begins a comment, but not between quotes: bytes of numba's own constants may have one
+    llvm = re.sub(r'^((?:"[^"\n]*"|[^";\n])*?) *;.*$', r"\1", llvm, flags=re.MULTILINE)
+    return HINTS.sub("", llvm)
 
 
 def _optimised(llvm: str) -> str:
