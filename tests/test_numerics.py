@@ -34,7 +34,7 @@ def all_finite(run):
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(
-    ("controller", "push"), [("ADRC", "q5=90@1:0.02-"), ("NPD", "q1,q2,q3,q4,q5=120@1:0.02-")]
+    ("controller", "push"), [("ADRC", "q5=300@1:0.02-"), ("NPD", "q1,q2,q3,q4,q5=120@1:0.02-")]
 )
 def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
     """A push that throws the robot out of its gait: all numbers stay finite and below the bound of 20 * 50

@@ -206,7 +206,7 @@ def test_a_design_without_solution_names_the_limit_that_has_to_give() -> None:
     """8 N m per motor are too few for 0.9 m/s with steps of 0.6 m, and the message names this limit."""
     weak = StepLimits(torque=8.0, clearance=None)
     with pytest.raises(GaitError, match=r"would have to give: .*torque limit"):
-        design_gait("three_link", 0.9, 0.6, limits=weak)
+        design_gait("three_link", 0.9, 0.6, limits=weak, degree=4, nodes=8)
 
 
 def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:

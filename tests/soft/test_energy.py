@@ -64,7 +64,8 @@ def test_energy_closes_but_for_the_step_in_which_a_foot_comes_down(gait, frictio
     """
     biped = ba.Biped.load("rabbit", friction=friction)
     gaps = []
-    for h in (4e-4, 2e-4):
+    # static friction is a constraint of the engine's own, with jumps of its own: no order is asked there
+    for h in (4e-4,) if friction else (4e-4, 2e-4):
         (before, after), most, done = balance(biped, gait, h)
         jump = np.argmax(np.abs(before))
         rest = np.sum(np.delete(before, jump)) + np.sum(after)
@@ -73,5 +74,5 @@ def test_energy_closes_but_for_the_step_in_which_a_foot_comes_down(gait, frictio
         # the other steps before the touchdown miss little beside it
         assert np.sum(np.abs(np.delete(before, jump))) < 0.1 * abs(before[jump])
         gaps.append(abs(np.sum(after)))  # nothing jumps after the touchdown
-    if not friction:  # static friction is a constraint of the engine's own, with jumps of its own
+    if not friction:
         assert gaps[0] / gaps[1] == pytest.approx(4.0, rel=0.25)
