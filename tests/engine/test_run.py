@@ -478,7 +478,7 @@ def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait,
     walker = replace(walker, timing=late, sensors=ba.Sensors(filter_time=2e-3))
     in_part(*runs(walker, gait, ba.RK4(1e-3)), TICKS, "InPython")
     why = "method Adaptive has no compiled form"
-    in_part(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), t_end=0.15, impacts=None), TICKS, why)
+    in_part(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), t_end=0.11, impacts=None), TICKS, why)
 
 
 @pytest.mark.parametrize("method", [ba.RK4(2e-3), ba.Adaptive(1e-6, 1e-6)], ids=["RK4", "adaptive"])
