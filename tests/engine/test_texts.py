@@ -62,6 +62,6 @@ def test_without_numba_a_damaged_text_is_refused(damaged, monkeypatch):
 
 def test_a_semicolon_between_quotes_is_no_comment():
     """Bytes of a constant of numba's may have one; what follows a semicolon elsewhere is left out."""
-    assert write.plain('@x = [3 x i8] c"a;b" ; [#uses=1]\n; all\nret void ; "x') == (
+    assert write.without_hints('@x = [3 x i8] c"a;b" ; [#uses=1]\n; all\nret void ; "x') == (
         '@x = [3 x i8] c"a;b"\n\nret void'
     )

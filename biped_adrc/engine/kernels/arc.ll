@@ -1,4 +1,4 @@
-; sources 74ae38b7118339db4a4d083bfe67d353, text f2546e3dc71a2a073194f3138dee479d
+; sources 415b523c631b15a00a9d77f2a37705bb, text f2546e3dc71a2a073194f3138dee479d
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null

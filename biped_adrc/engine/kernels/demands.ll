@@ -1,4 +1,4 @@
-; sources 1d9d123ebbfef4b50b08af64c6ab3a75, text af4da520351c6cf0628f7d5b6115b4fb
+; sources f18294ee3f05a04691fbb0682ff39a2f, text af4da520351c6cf0628f7d5b6115b4fb
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7demandsB3v84B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null

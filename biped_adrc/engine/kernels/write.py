@@ -91,11 +91,11 @@ def written(files: tuple[str, ...]) -> str:
     llvm = re.sub("numba_nextafter", "nextafter", str(linked))
     # what would raise an error in Python is never called, but would be missing where the text is linked
     llvm = _ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
-    llvm = _optimised(f"{plain(llvm)}\ndeclare void @llvm.trap()\n")
-    return plain(re.sub(r"^(source_filename|target) .*\n", "", llvm, flags=re.MULTILINE))
+    llvm = _optimised(f"{without_hints(llvm)}\ndeclare void @llvm.trap()\n")
+    return without_hints(re.sub(r"^(source_filename|target) .*\n", "", llvm, flags=re.MULTILINE))
 
 
-def plain(llvm: str) -> str:
+def without_hints(llvm: str) -> str:
     """LLVM's text without hints to the optimiser, which each version of LLVM writes in another way, and without
     comments.
     """
