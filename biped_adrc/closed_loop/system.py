@@ -41,7 +41,7 @@ from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
-from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.sensing import Sensing, Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.biped import Biped
@@ -309,6 +309,9 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         InputError, with the user's line, for another class or shape than the state `before`."""
         if part is None or not self._own_hardware:
             return after
+        if isinstance(part, Sensing) and method != "reading":  # a state of each sensor
+            each = zip(part.parts, before, after, strict=True)
+            return tuple([self.checked(x, method, *states) for x, *states in each])
         return frozen(returned_tree(after, Layout.of(before), part, method, finite=False))
 
     def foot_forces(
@@ -410,8 +413,12 @@ def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layou
     # handing_out() raises an exception of the user's code again, as an error that names its line
     with handing_out(), np.errstate(over="ignore", invalid="ignore"):
         m = loop.measure(mode.start, q, v, mode)
-        for part in nested(loop.law):  # the controller, and those inside it
+        inside = list(nested(loop.law))  # the controller, and those inside it
+        for part in inside:
             _check_tracking(part, m, loop.plant.p)
+        # the innermost first, as a wrapper chooses between its states before they are checked
+        for part in filter(has_own_class, reversed(inside[1:])):
+            check_methods(part, part.initial_state(m), m, loop.sampled)
         # None: a state of any layout is right at the start; later ones have to have the same
         s = returned_tree(loop.law.initial_state(m), None, loop.law, "initial_state")
         check_methods(loop.law, s, m, loop.sampled)  # calls each method once

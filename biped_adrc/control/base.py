@@ -129,7 +129,7 @@ class Controller(Part):
     def __init_subclass__(cls, **kwargs: Any) -> None:
         """Raise InputError for a class that writes a method of a name that is gone."""
         super().__init_subclass__(**kwargs)
-        for name in vars(cls).keys() & _GONE.keys():
+        for name in [x for x in _GONE if hasattr(cls, x)]:
             raise InputError(f"{cls.__name__} writes {name}, which is gone; {_GONE[name]}")
 
     needs_body: ClassVar[bool] = False
@@ -239,8 +239,12 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     the right shape, as machine code would write past the end of the state; a user's method must give the same
     result twice, as machine code keeps nothing in an object.
     """
+    own, output = has_own_class(controller), getattr(controller, "measured_output", None)
+    if own and output:  # an observer's estimates have the shapes of what it measures
+        part: Any = vars(controller)["observer"]
+        returned_tree(part.estimate(s), Layout.of(output(m)), part, "estimate", finite=False)
     u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
-    if not has_own_class(controller):
+    if not own:
         return
     # method -> its arguments behind the state s
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}

@@ -88,7 +88,7 @@ class ImpactInvariant(ContactWindow):
         # raises InputError where there is none; `_has_no` below raises it always
         tracked_constraint(self.inner, why)
         reads = self.inner.reads_impulse
-        if not isinstance(reads, tuple) or set(reads) - {"output", "correct"}:
+        if not isinstance(reads, tuple) or any(x not in ("output", "correct") for x in reads):
             raise InputError(
                 f"reads_impulse of {spoken(self.inner)} is {reads!r}, expected a tuple of 'output', 'correct'"
             )

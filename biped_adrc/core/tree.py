@@ -37,7 +37,13 @@ def flatten(tree: Any) -> Array:
 
 
 def chosen(which: float, one: Any, other: Any) -> Any:
-    """Choose between two trees of one layout: `one` if `which` is 1 (true), `other` if it is 0."""
+    """Choose between two trees of one layout: `one` if `which` is 1 (true), `other` if it is 0.
+
+    Raises InputError for two layouts, as where a user's `correct` returns another state than `initial_state`.
+    """
+    if Layout.of(one) != Layout.of(other):
+        names, others = ([*Layout.of(x).names("s")] for x in (one, other))
+        raise InputError(f"a state is {names} or {others}; expected one class and shape")
     if isinstance(one, tuple):
         parts = [chosen(which, *pair) for pair in zip(one, other, strict=True)]
         # _like: a tuple or NamedTuple of this class

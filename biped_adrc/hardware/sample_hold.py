@@ -16,9 +16,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.tree import Layout, returned_tree
-from biped_adrc.core.types import Array, frozen
+from biped_adrc.core.types import Array
 from biped_adrc.hardware.motors import Line, TorqueLine
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Belief, Touchdown
@@ -67,11 +66,10 @@ class HeldParts(NamedTuple):
         step: number of the first single support, start [s]: time at which it began; a controller that detects
         touchdowns itself believes in these at first. `own` is 0 here: the plant fills it in.
         """
-        # _tried: starts the sensors, and calls each of their methods once as a test
-        w = None if self.sensors is None else _tried(self.sensors, q, v)
-        belief, touchdown = None, self.touchdown
+        # states are checked, since they may be a user's; None: every structure of arrays is right
+        sensors, belief, touchdown = self.sensors, None, self.touchdown
+        w = None if sensors is None else returned_tree(sensors.start(q, v), None, sensors, "start")
         if touchdown is not None:
-            # checked, since it may be a user's: None means that every structure of arrays is right
             d = returned_tree(touchdown.start(), None, touchdown, "start")
             belief = Belief(0.0, float(step), float(start), d)  # 0: its names of the legs are right
         # the last one is a `Line` of zeros
@@ -81,19 +79,3 @@ class HeldParts(NamedTuple):
 def motor_torque(line: Line) -> Array:
     """Torque on the joints now (p,) [N m]: u_m of motors with a lag, else the command u."""
     return line.u if line.u_m is None else line.u_m
-
-
-def _tried(sensors: Sensor, q: Array, v: Array) -> Any:
-    """Start sensors, and call each method of theirs once as a test; returns their state w at the start.
-
-    Raises InputError where `sense` returns a state of another class or shape than `start`, or `reading` other
-    shapes than those of q and v.
-    """
-    # returned_tree(result, layout, part, method) checks a result; frozen arrays show a method that writes to w
-    w = returned_tree(sensors.start(q, v), None, sensors, "start")
-    returned_tree(sensors.sense(frozen(w), q, v), Layout.of(w), sensors, "sense")
-    found = sensors.reading(frozen(w), q, v)
-    returned_tree(found, Layout.of((q, v)), sensors, "reading")
-    if not all(isinstance(x, np.ndarray) for x in found):
-        raise InputError(f"{type(sensors).__name__}.reading returned a list, expected two arrays")
-    return w

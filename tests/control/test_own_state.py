@@ -17,6 +17,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.observers.base import Estimate
 from tests.export.test_agreement import TOLERANCE, difference
 
 K_I, LEAST = 1e5, 1e-4
@@ -239,6 +240,10 @@ def of_detector(**methods):
     return {"touchdown": detector, "timing": ba.SampledTime(1e-3, restart=False)}
 
 
+def shorter_later(self, s, m):
+    return s if m.t < 0.2 else s._replace(e=s.e[:2])
+
+
 def exchanged_later(self, d, look):
     return (d if look.t < 0.2 else Exchanged(*d)), 0.0
 
@@ -250,8 +255,9 @@ WRONG_PARTS = {
     "Own.reading (L) returned a ndarray, expected a tuple of 2": of_sensors(
         reading=lambda self, w, q, v: q
     ),
-    "Own.reading returned a list, expected two arrays": of_sensors(
-        reading=lambda self, w, q, v: (list(q), list(v))
+    "Own.reading (L) returned an array of shape (4,), expected (5,)": of_sensors(
+        reading=lambda self, w, q, v: (q, v) if w.x < 100.0 else (q[1:], v),
+        sense=lambda self, w, q, v: w._replace(x=w.x + 1.0),
     ),
     "Own.touchdown (L) returned a Exchanged, expected a Pair": of_detector(
         touchdown=lambda self, d, *more: Exchanged(*d)
@@ -261,18 +267,33 @@ WRONG_PARTS = {
         notice=lambda self, d, look: d.y
     ),
 }
+FIRST = next(iter(WRONG_PARTS))
 WRONG_LAWS = {
     "Plain.predict (L) returned a tuple of 3, expected a tuple of 2": of_plain_tuple(
         predict=longer
     ),
     "Plain.jump (L) returned a tuple of 3, expected a tuple of 2": of_plain_tuple(jump=longer),
-    "Hold (Own).predict (L) returned a Exchanged, expected a Integral": lambda h: Hold(
+    "Own.correct (L) returned an array of shape (2,), expected (4,)": lambda h: Hold(
+        type("Own", (WithNames,), {"correct": lambda self, s, m: s._replace(e=s.e[:2])})(h)
+    ),
+    "a state is ['s.e[0]', 's.e[1]', 's.e[2]', 's.e[3]', 's.waits'] or ['s.e[0]', 's.e[1]'": (
+        lambda h: Hold(type("Own", (WithNames,), {"correct": shorter_later})(h))
+    ),
+    "Own.predict (L) returned a Exchanged, expected a Integral": lambda h: Hold(
         type("Own", (WithNames,), {"predict": exchanged})(h)
     ),
     "Hold (Own).jump (L) returned a Exchanged, expected a Integral": lambda h: Hold(
         type("Own", (WithNames,), {"jump": exchanged})(h)
     ),
 }
+
+
+def reset_short(self, z, *more):
+    return z[1:]
+
+
+def estimate_short(self, z):
+    return Estimate(z[0], z[1][:3], z[2])
 
 
 def told(walker, gait, engine):
@@ -295,21 +316,29 @@ def test_a_state_that_no_longer_fits_is_refused_wherever_it_comes_from(biped, ga
         assert told(walker, gait, engine).startswith(said)
     for said, law in WRONG_LAWS.items():
         assert told(ba.Walker(biped, law(h), **ticks), gait, engine).startswith(said)
-    observer = type("Own", (ba.GPIObserver,), {"reset": lambda self, z, *more: z[1:]})
-    law = ba.ADRCController(h, observer.from_bandwidth(300.0, 1))
-    text = told(ba.Walker(biped, law), gait, engine)
-    assert text.startswith(
-        "ADRCController (Own).jump (L) returned an array of shape (2, 4), expected"
-    )
+    # of two sensors the one that is wrong is named
+    sensors = Sensing() + WRONG_PARTS[FIRST]["sensors"]
+    walker = ba.Walker(biped, ba.NPDController(h), sensors=sensors, **ticks)
+    assert told(walker, gait, engine).startswith(FIRST)
+    for said, method in (
+        ("ADRCController (Own).jump (L) returned an array of shape (2, 4)", reset_short),
+        ("Own.estimate (L) returned an array of shape (3,), expected (4,)", estimate_short),
+    ):
+        observer = type("Own", (ba.GPIObserver,), {method.__name__.partition("_")[0]: method})
+        law = ba.ADRCController(h, observer.from_bandwidth(300.0, 1))
+        assert told(ba.Walker(biped, law), gait, engine).startswith(said)
 
 
 def test_a_method_of_a_name_that_is_gone_is_refused_with_the_new_one():
+    """Also where a class beside the controller's writes it."""
     for name, said in (
         ("projected_output", "read m.impulse in output or correct"),
         ("output_change", r"write impulse_change\(m\)"),
     ):
-        with pytest.raises(InputError, match=f"Own writes {name}, which is gone; {said}"):
-            type("Own", (ba.NPDController,), {name: lambda self: None})
+        methods = {name: lambda self: None}
+        for bases, own in (((), methods), ((type("Beside", (), methods),), {})):
+            with pytest.raises(InputError, match=f"Own writes {name}, which is gone; {said}"):
+                type("Own", (*bases, ba.NPDController), own)
 
 
 def test_a_list_in_a_state_is_an_array(biped, gait):
