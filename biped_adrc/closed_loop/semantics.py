@@ -181,7 +181,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
         m, s, w, b = noticed(loop, k, t, s, tail, q, v, mode)
     else:
         b, w = None, loop.checked(k.sensors, "sense", tail.sensors, k.sense(tail.sensors, q, v))
-        m = loop.measure(t, *seen(loop, k, w, q, v), mode)
+        m = loop.measure(t, *sensor_readings(loop, k, w, q, v), mode)
     # the controller acts: correct, output, limits, queue of torques, predict
     s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
     line = labelled(loop, b, line)
@@ -269,10 +269,10 @@ def after_contact(
             return flatten(State(q_plus, v_plus, s, tail._replace(belief=belief)))
         if k.sensors is not None:
             # the last measured rates, mapped by the nominal model's impact
-            expected = loop.nominal.impact(*seen(loop, k, tail.sensors, q, v)).v
+            expected = loop.nominal.impact(*sensor_readings(loop, k, tail.sensors, q, v)).v
             w = k.sensors.impact(tail.sensors, q_plus, v_plus, expected)
             tail = tail._replace(sensors=loop.checked(k.sensors, "impact", tail.sensors, w))
-        reading = seen(loop, k, tail.sensors, q_plus, v_plus)
+        reading = sensor_readings(loop, k, tail.sensors, q_plus, v_plus)
     s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.swap)
     return flatten(State(q_plus, v_plus, s, tail))
 
@@ -317,7 +317,7 @@ def noticed(
     if k.touchdown.needs_force:
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
     w = loop.checked(k.sensors, "sense", tail.sensors, k.sense(tail.sensors, q_c, v_c))
-    q_seen, v_seen = seen(loop, k, w, q_c, v_c)
+    q_seen, v_seen = sensor_readings(loop, k, w, q_c, v_c)
     # `foot` is what a real detector may use; the plant's own `other`, step and time are for simulated faults
     foot, since = loop.nominal.swing_foot(q_seen), t - mode.start
     look = Look(t, t - old.start, foot, force, old.other, mode.step, since)
@@ -332,11 +332,13 @@ def noticed(
     if k.sensors is not None:
         after = k.sensors.impact(w, q_c, v_c, loop.nominal.R @ v_seen)
         w = chosen(fires, loop.checked(k.sensors, "impact", w, after), w)
-    m = loop.measure(t, *seen(loop, k, w, q_c, v_c), mode._replace(step=step, start=start))
+    m = loop.measure(
+        t, *sensor_readings(loop, k, w, q_c, v_c), mode._replace(step=step, start=start)
+    )
     return m, loop.jumped(fires, s, m), w, Belief(other, step, start, d)
 
 
-def seen(loop: Loop, k: HeldParts, w: Any, q: Array, v: Array) -> tuple[Array, Array]:
+def sensor_readings(loop: Loop, k: HeldParts, w: Any, q: Array, v: Array) -> tuple[Array, Array]:
     """The readings (n,) [rad], (n,) [rad/s] of the sensors in the state w at q (n,) [rad], v (n,) [rad/s]."""
     return loop.checked(k.sensors, "reading", (q, v), k.reading(w, q, v))
 

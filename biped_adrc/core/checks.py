@@ -231,9 +231,8 @@ def _numbers_returned(
         array = np.empty(0, dtype=object)
     sentence = _sentence(part, method, field)
     expected = "a row of real numbers" if shape is None else f"{shape}, real numbers"
-    if (
-        array.dtype.kind not in "fiub"
-    ):  # neither floats, whole numbers, nor the 1 or 0 of a comparison
+    # neither floats, whole numbers, nor the 1 or 0 of a comparison
+    if array.dtype.kind not in "fiub":
         forgot = "; is a return statement missing?" if found is None and not field else ""
         shown = f"{found.dtype} numbers" if isinstance(found, np.ndarray) else _shown(found)
         raise InputError(f"{sentence} {shown}, expected {expected}{forgot}")

@@ -36,11 +36,8 @@ _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finished class alone
     """A torque on joints or a force on a link, of a shape in time.
 
-    direction [rad]: of the force, from forwards to up. duration [s], frequency [Hz]: of a pulse, of a sine or
-    noise. rise [s]: of each edge of a pulse. across_impacts: whether the push goes on over impacts; by default
-    as its shape does. values: further ones, those that the class of the shape takes, by name.
-    Raises InputError for a shape that there is not, for a value out of its range, and for a force beside a
-    torque.
+    values: further ones, those that the class of the shape takes, by name. Raises InputError for a shape that
+    there is not, for a value out of its range, and for a force beside a torque.
 
     >>> push = ba.Push(torque=-60.0, joints="q1,q2", step=2, onset=0.1)
     >>> ba.walk_scenario(ba.Scenario("NPD", pushes=[push], run={"impacts": 2})).impacts

@@ -296,7 +296,7 @@ def estimate_short(self, z):
     return Estimate(z[0], z[1][:3], z[2])
 
 
-def told(walker, gait, engine):
+def sentence(walker, gait, engine):
     """The sentence about a walk of one step, with L in place of file and line."""
     try:  # a jump, and what begins later, end the walk; all others let it not begin
         text = ba.walk(walker, gait, 1, engine=engine).trajectory.detail
@@ -313,20 +313,20 @@ def test_a_state_that_no_longer_fits_is_refused_wherever_it_comes_from(biped, ga
     h, ticks = gait.constraint, {"timing": CLOCKS["sampled"]}
     for said, parts in WRONG_PARTS.items():
         walker = ba.Walker(biped, ba.NPDController(h), **(ticks | parts))
-        assert told(walker, gait, engine).startswith(said)
+        assert sentence(walker, gait, engine).startswith(said)
     for said, law in WRONG_LAWS.items():
-        assert told(ba.Walker(biped, law(h), **ticks), gait, engine).startswith(said)
+        assert sentence(ba.Walker(biped, law(h), **ticks), gait, engine).startswith(said)
     # of two sensors the one that is wrong is named
     sensors = Sensing() + WRONG_PARTS[FIRST]["sensors"]
     walker = ba.Walker(biped, ba.NPDController(h), sensors=sensors, **ticks)
-    assert told(walker, gait, engine).startswith(FIRST)
+    assert sentence(walker, gait, engine).startswith(FIRST)
     for said, method in (
         ("ADRCController (Own).jump (L) returned an array of shape (2, 4)", reset_short),
         ("Own.estimate (L) returned an array of shape (3,), expected (4,)", estimate_short),
     ):
         observer = type("Own", (ba.GPIObserver,), {method.__name__.partition("_")[0]: method})
         law = ba.ADRCController(h, observer.from_bandwidth(300.0, 1))
-        assert told(ba.Walker(biped, law), gait, engine).startswith(said)
+        assert sentence(ba.Walker(biped, law), gait, engine).startswith(said)
 
 
 def test_a_method_of_a_name_that_is_gone_is_refused_with_the_new_one():
