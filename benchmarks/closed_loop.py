@@ -70,7 +70,8 @@ def own(
         run = compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1]))
         run["every"] = every
         run.keep(float(times[-1]))
-        run.stride(1)
+        run.strikes(1)
+        run.stride()
         return run
 
     def interpolated() -> Array:

@@ -6,7 +6,8 @@ One motion for all, from the gait's start for one second, restarted; no impact a
 q'' is compared to the package's at random states first. Error: largest difference of an angle at the end to
 DOP853 at 1e-12 on the package's q'' [rad].
 
-A second table has Pinocchio's own calls against the number of joints: RABBIT, then robots of example-robot-
+A second table has many robots side by side, in one thread, from states beside each other. A third one has
+Pinocchio's own calls against the number of joints: RABBIT, then robots of example-robot-
 data. A free base counts as one joint with six velocities; the cost is that of `aba`.
 """
 
@@ -22,6 +23,7 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 from peers.chains import Chain
+from peers.many_chains import moves
 from report import Run, Table, arguments, repeated, rounds
 from scipy.integrate import solve_ivp
 
@@ -45,6 +47,7 @@ ROBOTS = {
     "TALOS": ("talos_data/robots/talos_full_v2.urdf", True),
 }
 """URDF below the data's folder, and whether its base is free."""
+MANY = 200  # robots side by side
 CALLS = 1000  # of one function of Pinocchio, as one run
 
 
@@ -89,6 +92,25 @@ def motion(biped: ba.Biped, count: int) -> Table:
             table.add(
                 name, seconds[name], DURATION, error=errors[key], acceleration_off_by=apart[peer]
             )
+    return table
+
+
+def side_by_side(biped: ba.Biped, count: int) -> Table:
+    """Many robots for half a second in one thread. Error: largest difference of an angle to the first row."""
+    q, v = ba.load_gait("published", biped).start(biped)
+    random, duration = np.random.default_rng(3), 0.5
+    states = np.concatenate((q, v)) + random.normal(0.0, 1e-2, (MANY, 2 * biped.n))
+    peers = dict(moves(biped))
+    ends = {name: move(states, duration) for name, move in peers.items() if move}
+    runs = {name: partial(move, states, duration) for name, move in peers.items() if move}
+    table = Table("Plants side by side", "simulated s", f"{MANY} robots", ("mujoco-core", "jax"))
+    seconds, first = rounds(runs, count), next(iter(ends.values()))
+    for name, move in peers.items():
+        if move is None:
+            table.missing(name)
+        else:
+            error = float(np.max(np.abs(ends[name] - first)))
+            table.add(name, seconds[name], MANY * duration, error=error)
     return table
 
 
@@ -154,10 +176,11 @@ def pinocchio_calls(biped: ba.Biped, count: int) -> Table:
 
 
 def main() -> None:
-    """Print both tables, and write them when asked."""
+    """Print the tables, and write them when asked."""
     asked = arguments(__doc__).parse_args()
     biped = ba.Biped.load("rabbit")
     motion(biped, 3 if asked.quick else 25).finish(asked.out)
+    side_by_side(biped, 3 if asked.quick else 15).finish(asked.out)
     pinocchio_calls(biped, 3 if asked.quick else 15).finish(asked.out)
 
 

@@ -117,7 +117,8 @@ class CompiledChain(Chain):
         def simulate(q: Array, v: Array, duration: float) -> Array:
             run = plan.start(np.concatenate((q, v)), 0.0, 1, 0.0, duration)
             run["farthest"] = FAR  # it turns over
-            run.stride(1)
+            run.strikes(1)
+            run.stride()
             return run.x[:n].copy()
 
         return simulate

@@ -13,7 +13,7 @@ Return maps (`analysis`) ask for `strides`, studies and benchmarks for `simulate
 
 import os
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
@@ -32,6 +32,8 @@ from biped_adrc.core.once import constant
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array
+from biped_adrc.engine.kernels.compiled_run import CompiledRun
+from biped_adrc.engine.lanes import SIDE_BY_SIDE, Lanes
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.run import STORE, simulate_by, simulate_compiled
@@ -175,7 +177,7 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
     with ThreadPoolExecutor(threads) as pool:
         try:
             while group := [prepare(case) for case in islice(cases, next(sizes))]:
-                waiting.append(pool.submit(lambda runs: [run() for run in runs], group))
+                waiting.append(pool.submit(walks_of(group)))
                 while waiting and (len(waiting) >= _AHEAD * threads or waiting[0].done()):
                     yield from waiting.popleft().result()
             while waiting:
@@ -185,13 +187,40 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
                 future.cancel()
 
 
+def walks_of(
+    runs: Sequence[Callable[[], BatchWalk]], least: int = SIDE_BY_SIDE
+) -> Callable[[], list[BatchWalk]]:
+    """The function that makes the walks of what `Preparation` returned; it may run in any thread.
+
+    Walks of one structure go side by side, if there are at least so many of them.
+    """
+    alike = dict[Hashable, dict[int, Ready]]()
+    for i, run in enumerate(runs):
+        if isinstance(run, Ready) and run.key is not None:
+            alike.setdefault(run.key, {})[i] = run
+    teams = [team for team in alike.values() if len(team) >= least]
+    # compiled here, in the caller's thread
+    firsts = [next(iter(team.values())) for team in teams]
+    codes = [Lanes.of(first.compiled, bool(first.read)) for first in firsts]
+
+    def made() -> list[BatchWalk]:
+        walks = dict[int, BatchWalk]()
+        for lanes, team in zip(codes, teams, strict=True):
+            walks |= zip(
+                team, _side_by_side(lanes, [run.going() for run in team.values()]), strict=True
+            )
+        return [walks[i] if i in walks else run() for i, run in enumerate(runs)]
+
+    return made
+
+
 class Preparation:
     """Prepares cases one after the other, each from an earlier one if they are alike: equal but for numbers of
     the controller and for the disturbance.
     """
 
     def __init__(self) -> None:
-        self.last: _Ready | None = None
+        self.last: Ready | None = None
         """The last case that was prepared as a whole."""
 
     def __call__(self, case: Case) -> Callable[[], BatchWalk]:
@@ -218,13 +247,13 @@ class Preparation:
             return lambda: walked
         # a controller of a user's class is tried at the start of each walk
         w = case.walker
-        if isinstance(run, _Ready) and not any(map(has_own_class, (w.controller, w.law))):
+        if isinstance(run, Ready) and not any(map(has_own_class, (w.controller, w.law))):
             self.last = run
         return run
 
 
 @dataclass(frozen=True)
-class _Ready:
+class Ready:
     """A case that is ready to run in machine code; called, it returns its walk."""
 
     case: Case
@@ -239,7 +268,18 @@ class _Ready:
         # only compiled walks in sampled time that know touchdowns at once have a table; others leave their run
         if c.curve is not None and not self.read:
             return left_by(c, simulate_compiled(self.compiled, self.x, c.mode, c.options))
-        return _strides(self.compiled, self.x, c.mode, c.options.t_end, c.impacts, self.read)
+        return self.going().to_end()
+
+    def going(self) -> "_Going":
+        """The walk at its start."""
+        c = self.case
+        return _Going(self.compiled, self.x, c.mode, c.options.t_end, c.impacts, self.read)
+
+    @cached_property
+    def key(self) -> Hashable | None:
+        """What it has in common with walks that may go beside it; None for none."""
+        alone = self.case.curve is not None and not self.read
+        return None if alone else Lanes.key(self.compiled, bool(self.read))
 
     @cached_property
     def begin(self) -> Measurement:
@@ -304,30 +344,73 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     read = 0
     if case.curve is not None and walker.sampled and walker.touchdown is None:
         read = compiled.program.reading(step_reading).addresses["reading"]
-    return _Ready(case, x, compiled, read)
+    return Ready(case, x, compiled, read)
 
 
-def _strides(
-    compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int, read: int = 0
-) -> BatchWalk:
-    """Simulate the walk from x (nx,) at the start of the single support `mode`, in compiled code.
+class _Going:
+    """A walk that is being made in machine code, a few single supports at a time, and what it has left so far.
 
-    It ends after so many impacts, at t_end [s] at the latest. read: address of the function that computes a row
-    of the table, 0 for no table.
+    It ends after so many impacts, at t_end [s] at the latest. x (nx,): the state at the start of the single
+    support `mode`. read: address of the function that computes a row of the table, 0 for no table.
     """
-    nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
-    if read:  # memory for the rows of so many single supports
+
+    def __init__(
+        self,
+        compiled: CompiledWalker,
+        x: Array,
+        mode: Mode,
+        t_end: float,
+        impacts: int,
+        read: int = 0,
+    ):
+        self.run, self.read = compiled.plan.start(x, mode.start, *mode, t_end), read
+        self.left, self.start, self.status = impacts, mode.start, Status.COMPLETED
+        self.parts, self.rows = list[Array](), list[Array]()
+        """Rows (t, x-, x+) of the impacts, and those of the table."""
+        if read:  # memory for the rows of so many single supports
+            self.run.keep(compiled.walker.max_step_time, min(impacts, _AT_ONCE), read)
+
+    def next(self) -> CompiledRun:
+        """The run, ready to be moved over the next impacts."""
         # _AT_ONCE: most single supports for whose nodes memory is taken at a time
-        run.keep(compiled.walker.max_step_time, min(impacts, _AT_ONCE), read)
-    # parts: rows (t, x-, x+) of the impacts; rows: those of the table; left: impacts that are still to be made
-    status, parts, rows, left = Status.COMPLETED, list[Array](), list[Array](), impacts
-    while left > 0 and status is Status.COMPLETED:
-        status, part = run.stride(min(left, _AT_ONCE) if read else left)
-        parts, rows, left = [*parts, part], [*rows, run.rows().copy()], left - len(part)
-    strikes = parts[0] if len(parts) == 1 else np.vstack(parts)
-    times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
-    table = (np.vstack(rows) if len(rows) > 1 else rows[0]) if read else None
-    return BatchWalk(status, "", times, before, after, run["t"], COMPILED, mode.start, table)
+        self.parts.append(self.run.strikes(min(self.left, _AT_ONCE) if self.read else self.left))
+        return self.run
+
+    def add(self, status: Status) -> None:
+        """Add what the run has left, which has been moved over those impacts or to another end."""
+        struck = int(self.run["struck"])
+        self.parts[-1] = self.parts[-1][:struck]
+        self.status, self.left = status, self.left - struck if status is Status.COMPLETED else 0
+        # a run that is over leaves its memory; one that goes on overwrites it
+        self.rows.append(self.run.rows().copy() if self.left > 0 else self.run.rows())
+
+    def to_end(self) -> BatchWalk:
+        """The walk, made by itself."""
+        while self.left > 0:
+            self.next()
+            self.add(self.run.stride())
+        return self.walk()
+
+    def walk(self) -> BatchWalk:
+        """The walk, when it is over."""
+        run, nx = self.run, self.run.nx
+        strikes = self.parts[0] if len(self.parts) == 1 else np.vstack(self.parts)
+        times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
+        table = (
+            (np.vstack(self.rows) if len(self.rows) > 1 else self.rows[0]) if self.read else None
+        )
+        return BatchWalk(
+            self.status, "", times, before, after, run["t"], COMPILED, self.start, table
+        )
+
+
+def _side_by_side(lanes: Lanes, walks: Sequence[_Going]) -> list[BatchWalk]:
+    """Make walks at their starts, which have a key of `Lanes` in common."""
+    while going := [one for one in walks if one.left > 0]:
+        runs = [one.next() for one in going]
+        for one, status in zip(going, lanes.run(runs), strict=True):
+            one.add(status)
+    return [one.walk() for one in walks]
 
 
 def left_by(case: Case, run: Trajectory) -> BatchWalk:
@@ -348,7 +431,16 @@ def strides(
     Each ends at its impact, or with another status. x (nx,) is the state right after the impact that began the
     single support `mode`. t_end [s]: longest duration of one single support.
     """
-    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        # 1: each ends after one impact
-        runs = [pool.submit(_strides, compiled, x, m, m.start + t_end, 1) for x, m in starts]
-    return [run.result() for run in runs]
+    # 1: each ends after one impact
+    going = [_Going(compiled, x, m, m.start + t_end, 1) for x, m in starts]
+    threads = os.cpu_count() or 1
+    beside = len(starts) >= SIDE_BY_SIDE and Lanes.key(compiled, False) is not None
+    lanes = Lanes.of(compiled, False) if beside else None
+    size = max(1, -(-len(going) // threads))
+    parts = [going[i : i + size] for i in range(0, len(going), size)]
+
+    def made(part: Sequence[_Going]) -> list[BatchWalk]:
+        return _side_by_side(lanes, part) if lanes else [one.to_end() for one in part]
+
+    with ThreadPoolExecutor(threads) as pool:
+        return [*chain(*pool.map(made, parts))]

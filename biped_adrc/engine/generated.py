@@ -23,21 +23,37 @@ _IN_MEMORY: dict[Hashable, Code | str] = {}
 """Structure and names of functions -> their code; a text where they cannot be compiled, the reason."""
 
 
-def generated(key: Hashable, functions: _Functions, optimised: bool = False) -> Code:
+def generated(
+    key: Hashable, functions: _Functions, optimised: bool = False, lanes: int = 1
+) -> Code:
     """The machine code of these functions; they are traced once per structure.
 
     - key: the structure of what they are made from; equal keys have to mean equal code.
     - functions: name -> what traces its expression when it is called.
     - optimised: whether LLVM's passes run (`machine.object_code`).
+    - lanes: number of walks that they serve in one call (`ir.function_text`).
 
     Raises NotCompiled for functions that cannot be traced; a second call raises it without tracing anew.
     """
-    names = list(functions)
-    key = key, *names  # several sets of functions may be made from one structure
+
+    def text() -> str:
+        # imported here, since it imports CasADi, which is needed only where something is traced
+        from biped_adrc.engine.ir import module_text
+
+        return module_text({name: f() for name, f in functions.items()}, lanes)
+
+    return generated_text((key, *functions, lanes), tuple(functions), text, optimised)
+
+
+def generated_text(
+    key: Hashable, names: tuple[str, ...], write: Callable[[], str], optimised: bool = False
+) -> Code:
+    """The machine code of a module in LLVM's language, with these functions, that `write` makes; else as
+    `generated`."""
     code = _IN_MEMORY.get(key)
     if code is None:
         try:
-            code = Code(_text(key, functions), tuple(names), optimised)
+            code = Code(_text(key, write), names, optimised)
         except NotCompiled as error:
             code = str(error)
         _IN_MEMORY[key] = code
@@ -46,16 +62,13 @@ def generated(key: Hashable, functions: _Functions, optimised: bool = False) -> 
     return code
 
 
-def _text(key: Hashable, functions: _Functions) -> str:
-    """LLVM's text of these functions; from the disk where another process has traced the same structure."""
+def _text(key: Hashable, write: Callable[[], str]) -> str:
+    """The text that `write` makes; from the disk where another process has made one of the same structure."""
     name_on_disk = lasting(key)  # empty for a structure with classes of the user's
     stored = fetch(name_on_disk) if name_on_disk else None
     if stored is not None:
         return stored.decode()
-    # imported here, since it imports CasADi, which is needed only where something is traced
-    from biped_adrc.engine.ir import module_text
-
-    result = module_text({name: f() for name, f in functions.items()})
+    result = write()
     if name_on_disk:
         store(name_on_disk, result.encode())
     return result

@@ -14,14 +14,15 @@ and `engine.machine`. No operations are fused into multiply-adds, so that the nu
 depend on what else is compiled with it.
 """
 
-import struct
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.sine import number_text, pattern
 
 CHOICE = -1
 """Code of an operation that CasADi has not: b where a is not 0, else c."""
@@ -29,9 +30,9 @@ Patterns = Mapping[int, str]
 """Pattern by CasADi's code of the operation."""
 OF_C: dict[int, str] = {
     getattr(ca, f"OP_{name.upper()}"): name
-    for name in ["sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "asin", "acos", "atan"]
+    for name in ["tan", "exp", "log", "sinh", "cosh", "tanh", "asin", "acos", "atan"]
 } | {ca.OP_POW: "pow", ca.OP_CONSTPOW: "pow"}
-"""Operations that are functions of the C library, by their names there."""
+"""Operations that are functions of the C library, by their names there; sin and cos are in `engine.sine`."""
 
 
 class Operation(NamedTuple):
@@ -110,6 +111,8 @@ _PATTERNS: Patterns = {
     ca.OP_TWICE: "fadd double {a}, {a}",
     ca.OP_SQ: "fmul double {a}, {a}",
     ca.OP_INV: "fdiv double 1.0, {a}",
+    ca.OP_SIN: pattern(0),
+    ca.OP_COS: pattern(1),
     ca.OP_NOT: "fcmp oeq double {a}, 0.0\nuitofp i1 {0} to double",
     ca.OP_IF_ELSE_ZERO: "fcmp une double {a}, 0.0\nselect i1 {0}, double {b}, double 0.0",
     CHOICE: "fcmp une double {a}, 0.0\nselect i1 {0}, double {b}, double {c}",
@@ -127,74 +130,147 @@ _PATTERNS: Patterns = {
     },
 }
 """Lines of LLVM by operation."""
-DECLARATIONS = "\n".join(
-    f"declare double @{name}(double{', double' if code in _OF_TWO else ''}) nounwind readnone willreturn"
-    for name, code in {name: code for code, name in CALLED.items()}.items()  # `pow` has two codes
-)
-"""Head of every module: the functions that its code may call, each declared once."""
 
 
-def module_text(functions: dict[str, SymbolicFunction]) -> str:
+def declarations(lanes: int = 1) -> str:
+    """Head of every module: the functions that its code may call, each declared once; for several lanes those
+    of LLVM for them, too."""
+    lines = list[str]()
+    for name, code in {name: code for code, name in CALLED.items()}.items():  # `pow` has two codes
+        double = f"double @{name}(double{', double' if code in _OF_TWO else ''})"
+        kinds = (double, wide(double, lanes)) if lanes > 1 and name[:5] == "llvm." else (double,)
+        lines += [f"declare {x} nounwind readnone willreturn" for x in kinds]
+    if lanes > 1:
+        lines.append(f"declare i1 @llvm.vector.reduce.or.v{lanes}i1(<{lanes} x i1>)")
+    return "\n".join(lines)
+
+
+def module_text(functions: dict[str, SymbolicFunction], lanes: int = 1) -> str:
     """The text of a module with these functions, each under its name. Raises NotCompiled for an operation that
     has no pattern here.
     """
-    return "\n".join([DECLARATIONS, *(function_text(name, f) for name, f in functions.items())])
+    texts = (function_text(name, f, lanes) for name, f in functions.items())
+    return "\n".join([declarations(lanes), *texts])
 
 
-def function_text(name: str, function: SymbolicFunction) -> str:
+def function_text(name: str, function: SymbolicFunction, lanes: int = 1) -> str:
     """The text of one function with the arguments K, inp, out, which do not overlap in memory.
 
-    Where `function.acts` is an expression, the code computes it first, into out[0], and where it is not above 0
-    writes zeros to out and returns.
+    lanes: number of walks that it serves in one call. Each place of K, inp and out then has so many numbers,
+    one of each walk. Where `function.acts` is an expression, the code computes it first, and where it is not
+    above 0, for no walk of several, writes zeros to out and returns.
     """
+    first, zeros, all_of = (Listing(letter, lanes) for letter in "arv")
+    results = all_of.values(function, all_of.of_memory)
+    if function.acts is None:
+        all_of.store_all("%out", results)
+        return defined(name, [*all_of.lines, "ret void"])
+    (acts,) = first.values(function._replace(out=function.acts), first.of_memory)
+    some = first.new(f"fcmp ogt double {acts}, 0.0")
+    # of several walks one may act and another not, whose results are zeros then
+    if lanes > 1:
+        results = [all_of.new(f"select i1 {some}, double {x}, double 0.0") for x in results]
+        one = f"%any = call i1 @llvm.vector.reduce.or.v{lanes}i1(<{lanes} x i1> {some})"
+        some = "%any"
+        first.lines.append(one)
+    zeros.store_all("%out", ["0.0"] * len(results))
+    all_of.store_all("%out", results)
+    head = [*first.lines, f"br i1 {some}, label %act, label %rest"]
+    rest, act = ["rest:", *zeros.lines, "ret void"], ["act:", *all_of.lines, "ret void"]
+    return defined(name, [*head, *rest, *act])
+
+
+def defined(name: str, lines: Sequence[str]) -> str:
+    """The text of the function `name` with the arguments K, inp, out and these lines."""
     head = f"define void @{name}(ptr noalias %K, ptr noalias %inp, ptr noalias %out) nounwind {{"
-    lines = [*_lines("v", function, function.out), "ret void"]
-    if function.acts is not None:
-        lines = [
-            *_lines("a", function, function.acts),
-            "%acts = load double, ptr %out",
-            "%some = fcmp ogt double %acts, 0.0",
-            "br i1 %some, label %act, label %rest",
-            "rest:",
-            *_lines("r", function, ca.SX.zeros(function.out.numel())),
-            "ret void",
-            "act:",
-            *lines,
-        ]
     return "\n".join([head, *lines, "}"])
 
 
-def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
-    """The lines of LLVM that compute the expressions `out` of a function's K and inp and store them in its out.
+_LITERAL = re.compile(r"(?<=[ ,(])(-?\d+\.\d+|0x[0-9A-F]{16}|\d+)(?=,|$|\))")
+"""A number in a line of LLVM."""
+
+
+def wide(line: str, lanes: int) -> str:
+    """A line of LLVM for one number, as a line for so many side by side."""
+    if lanes == 1:
+        return line
+    kind = "i64" if "i64" in line and not line.startswith("bitcast") else "double"
+    line = re.sub(r"\b(double|i1|i64)\b", rf"<{lanes} x \1>", line).replace(".f64", f".v{lanes}f64")
+    return _LITERAL.sub(rf"splat ({kind} \1)", line)
+
+
+class Listing:
+    """Lines of LLVM, written one after the other, for so many walks side by side (`lanes`).
 
     Names of values are the letter and a number, since LLVM wants each name of a function to be assigned once;
-    another block of the same function has another letter. Outputs are stored last, after all inputs are read.
+    another block of the same function has another letter.
     """
-    # names: of the value of each operation so far; stores: the lines that write to out
-    lines, stores, names, count = list[str](), list[str](), list[str](), 0
 
-    # append a line that assigns `text` to a new name; return the name
-    def new(text: str, into: list[str] = lines) -> str:
-        nonlocal count
-        count += 1
-        into.append(f"%{letter}{count} = {text}")
-        return f"%{letter}{count}"
+    def __init__(self, letter: str, lanes: int = 1):
+        self.letter, self.lanes, self.lines, self._count = letter, lanes, list[str](), 0
 
-    for code, of, number in straight_line(function._replace(out=out)):
-        # of: for an input (0 for K or 1 for inp, index); for an output (place of its value, index in out)
-        name = ""
-        if code == ca.OP_CONST:  # with all its bits
-            name = f"0x{struct.unpack('<Q', struct.pack('<d', number))[0]:016X}"
-        elif code == ca.OP_INPUT:
-            at = new(f"getelementptr double, ptr {('%K', '%inp')[of[0]]}, i64 {of[1]}")
-            name = new(f"load double, ptr {at}")
-        elif code == ca.OP_OUTPUT:
-            at = new(f"getelementptr double, ptr %out, i64 {of[1]}", stores)
-            stores.append(f"store double {names[of[0]]}, ptr {at}")
-        else:
-            operands, values = dict(zip("abc", (names[k] for k in of), strict=False)), list[str]()
-            for text in _PATTERNS[code].splitlines():
-                values.append(new(text.format(*values, **operands)))
-            name = values[-1]
-        names.append(name)
-    return [*lines, *stores]
+    def raw(self, text: str) -> str:
+        """Append a line that assigns `text`, as it is, to a new name; return the name."""
+        self._count += 1
+        self.lines.append(f"%{self.letter}{self._count} = {text}")
+        return f"%{self.letter}{self._count}"
+
+    def new(self, text: str) -> str:
+        """Append a line for one number, widened to all lanes, that assigns `text` to a new name; return the
+        name."""
+        called = re.match(r"call double @(?!llvm)", text)
+        return self._each(text) if called and self.lanes > 1 else self.raw(wide(text, self.lanes))
+
+    def _each(self, text: str) -> str:
+        """Append a call of a function of the C library for each lane by itself."""
+        kind, result = f"<{self.lanes} x double>", "poison"
+        for i in range(self.lanes):
+            one = text
+            for x in re.findall(r"%\w+", text):
+                one = one.replace(x, self.raw(f"extractelement {kind} {x}, i64 {i}"), 1)
+            result = self.raw(f"insertelement {kind} {result}, double {self.raw(one)}, i64 {i}")
+        return result
+
+    def at(self, base: str, i: int) -> str:
+        """Append the address of place i of the vector `base`."""
+        return self.raw(f"getelementptr double, ptr {base}, i64 {i * self.lanes}")
+
+    def load(self, base: str, i: int) -> str:
+        """Append the load of place i of the vector at the address `base`; return its name."""
+        return self.raw(f"load {wide('double', self.lanes)}, ptr {self.at(base, i)}, align 8")
+
+    def of_memory(self, which: int, i: int) -> str:
+        """Append the load of input i, of K (which = 0) or of inp (1)."""
+        return self.load(("%K", "%inp")[which], i)
+
+    def store_all(self, base: str, values: Sequence[str], first: int = 0) -> None:
+        """Append stores of these values at the address `base`, from place `first` on."""
+        for i, x in enumerate(values, first):
+            typed = wide(f"double {x}", self.lanes)
+            self.lines.append(f"store {typed}, ptr {self.at(base, i)}, align 8")
+
+    def values(self, function: SymbolicFunction, of_input: Callable[[int, int], str]) -> list[str]:
+        """Append the lines that compute a function; return the names of its outputs.
+
+        of_input: gives the name of an input, by 0 for K or 1 for inp and its index; it is called once for each.
+        """
+        names, out = list[str](), dict[int, str]()  # names: of the value of each operation so far
+        for code, of, number in straight_line(function):
+            # of: for an input (0 for K or 1 for inp, index); for an output (place of its value, index in out)
+            name = ""
+            if code == ca.OP_CONST:
+                name = number_text(number)
+            elif code == ca.OP_INPUT:
+                name = of_input(*of)
+            elif code == ca.OP_OUTPUT:
+                out[of[1]] = names[of[0]]
+            else:
+                operands, values = (
+                    dict(zip("abc", (names[k] for k in of), strict=False)),
+                    list[str](),
+                )
+                for text in _PATTERNS[code].splitlines():
+                    values.append(self.new(text.format(*values, **operands)))
+                name = values[-1]
+            names.append(name)
+        return [out[i] for i in range(len(out))]

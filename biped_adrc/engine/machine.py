@@ -113,6 +113,8 @@ def run_passes(module: binding.ModuleRef, machine: binding.TargetMachine, vector
     """
     tuning = binding.create_pipeline_tuning_options(speed_level=3)
     tuning.slp_vectorization = tuning.loop_vectorization = tuning.loop_unrolling = vectors
+    if not vectors:  # LLVM's own limit, 250, makes the text half as long again, and no walk quicker
+        tuning.inlining_threshold = 40
     builder = binding.create_pass_builder(machine, tuning)
     builder.getModulePassManager().run(module, builder)
 

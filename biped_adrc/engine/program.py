@@ -115,12 +115,13 @@ class Program:
         """
         return generated(self.key, {name: partial(self._traced, name) for name in self.names})
 
-    def reading(self, read: Reading) -> Code:
+    def reading(self, read: Reading, lanes: int = 1) -> Code:
         """Machine code of `read`, with the address "reading"; its inputs are those of `tick`, its output all
-        arrays that `read` returns. Raises NotCompiled for a curve without a compiled form.
+        arrays that `read` returns. lanes: number of walks that it serves in one call. Raises NotCompiled for a
+        curve without a compiled form.
         """
         key = read, self.key, structure(self.numbers.curve)
-        return generated(key, {"reading": lambda: self.equations.view(read)})
+        return generated(key, {"reading": lambda: self.equations.view(read)}, lanes=lanes)
 
     def _traced(self, name: str) -> SymbolicFunction:
         """The function `name` on symbols; an error names the place in the user's code."""
@@ -245,6 +246,11 @@ class CompiledWalker:
         return cls(walker, still.program, run, label, still)
 
     @cached_property
+    def terms(self) -> tuple[Disturbance, ...]:
+        """The terms of its disturbance."""
+        return (self.walker.disturbance or NO_PUSH).terms
+
+    @cached_property
     def _first(self) -> int:
         """Index in K of the controller's first number; K has the numbers in the order of the fields, those of
         plant and model before."""
@@ -266,9 +272,9 @@ class CompiledWalker:
         if entangled or not alike(law, old.controller) or np.any(np.isnan(own)):
             return None
         K[self._first : self._first + len(own)] = own
-        still = self.still._replace(
-            program=replace(program, numbers=numbers), tables={**self.still.tables, "K": K}
-        )
+        other = replace(program, numbers=numbers)
+        vars(other)["key"] = program.key  # computed already, and equal for laws that are alike
+        still = self.still._replace(program=other, tables={**self.still.tables, "K": K})
         return self._under(walker, still, self.plan["t_first"], self.label)
 
 

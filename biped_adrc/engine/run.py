@@ -147,10 +147,10 @@ def simulate_compiled(
         Its arguments, which `run_arcs` gives to any engine, are not read: the run in memory is already where
         the last arc ended.
         """
-        # `stride(1)` ends after one impact at the latest
+        # the run ends after one impact at the latest
         nx, event, outcome = run.nx, None, None
-        status, strikes = run.stride(1)
-        for t, *x in strikes:  # one row (t, x-, x+), or none
+        strikes, status = run.strikes(1), run.stride()
+        for t, *x in strikes[: int(run["struck"])]:  # one row (t, x-, x+), or none
             outcome = np.array(x[nx:]), Mode(mode.step + 1, t)
             event = Event(FOOT_STRIKE, t, np.array(x[:nx]), outcome[0])
         # TERMINAL: status -> name of the event function that ends a run so

@@ -16,7 +16,8 @@ the kernel, moves many of them in one call. A `PythonWalk` is moved by `hybrid.s
 integrates one arc: a controller in Python on the compiled plant, or a plant of its own.
 """
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, cast
 
@@ -36,6 +37,7 @@ from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import Ints
+from biped_adrc.engine.lanes import SIDE_BY_SIDE, Lanes, Team
 from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.on_plant import CompiledLoop
@@ -115,8 +117,8 @@ class CompiledWalk:
         verdicts on ground and motors, which need a curve. Raises NotCompiled for a part without machine code.
         """
         compiled = CompiledWalker.of(walker, method, walker.layout_of(x), mode.start, curve)
-        # t_end is t at first: the kernel sets it to the end of each sample
-        run = compiled.plan.start(x, mode.start, *mode, mode.start)
+        # the kernel sets t_end to the end of each sample, and the walk has no end of its own
+        run = compiled.plan.start(x, mode.start, *mode, math.inf)
         if judged and curve is not None:
             look = compiled.program.reading(step_reading).addresses["reading"]
             run.keep(walker.max_step_time, 1, look)  # the nodes of one arc
@@ -283,6 +285,12 @@ class SampledWalks:
         self._laws = dict[Reading, tuple[Ints, Array]]()
         """For each function that was read: addresses of its machine code (N,), and its results (N, size)."""
         self._kernels = kernels()
+        self._key: Hashable = None
+        """What walks that go side by side have in common (`Lanes.key`); None for none."""
+        self._teams = list[Team]()
+        """Teams in whose lanes compiled walks sit, one after the other; empty where none go side by side."""
+        self._addresses_of_teams = np.zeros(1, dtype=np.int64)
+        """How many lanes each team has, and the addresses of teams."""
 
     def put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
         """Put a walk, with the code of its status (a place in `STATUS`), into place i."""
@@ -292,9 +300,32 @@ class SampledWalks:
         self.rows[i] = (t, mode.step, *x)
         self.all[i], self.codes[i] = walk, code
         self._addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
+        self._sit(i, walk)
         # the functions that were read have other machine code for another walk
         for view, (laws, _) in self._laws.items():
             laws[i] = self._law(i, view)
+
+    def _sit(self, i: int, walk: CompiledWalk | PythonWalk) -> None:
+        """Put walk i into its lane, if it may go side by side with the first one that may."""
+        key: Hashable = None
+        if len(self.all) >= SIDE_BY_SIDE and isinstance(walk, CompiledWalk):
+            key = Lanes.key(walk.compiled, bool(walk.run["look"]), bool(walk.run["pulled"]))
+            if key is not None and not self._teams:
+                self._begin_teams(walk, key)
+        if self._teams:
+            team, lane = divmod(i, len(self._teams[0].seats))
+            self._teams[team].seats[lane] = key is not None and key == self._key
+
+    def _begin_teams(self, walk: CompiledWalk, key: Hashable) -> None:
+        """Make teams for walks like this one."""
+        lanes, run, self._key = Lanes.of(walk.compiled, bool(walk.run["look"])), walk.run, key
+        self._teams = [lanes.team(run) for _ in range(0, len(self.all), lanes.lanes)]
+        for team in self._teams:
+            # the places of torque and force in K and `push`, which have so many numbers for one here
+            for name, vector in (("torque", "K"), ("force", "push")):
+                team.run[name] = team.run[vector] + lanes.lanes * (run[name] - run[vector])
+        addresses = (team.run.address for team in self._teams)
+        self._addresses_of_teams = np.array([lanes.lanes, *addresses])
 
     def _in_python(self) -> Iterator[tuple[int, PythonWalk]]:
         """Iterate over the walks that are moved in Python, with their numbers."""
@@ -307,7 +338,14 @@ class SampledWalks:
         Returns whether a single support ended in machine code (`struck` says which), and of those that ended in
         Python the number of the walk, its loop and the arc.
         """
-        arrays = (self._addresses, self.inputs, self.rows, self.codes, self._impacts)
+        arrays = (
+            self._addresses,
+            self.inputs,
+            self.rows,
+            self.codes,
+            self._impacts,
+            self._addresses_of_teams,
+        )
         walks, *states = (x.ctypes.data for x in arrays)
         ends = self._kernels.samples(walks, len(self.all), self.rows.shape[1], *states)
         over = list[tuple[int, ClosedLoop[Any], Arc]]()

@@ -42,7 +42,7 @@ from biped_adrc.control.foot_barrier import infeasible_instants
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.registry import FOLDERS
-from biped_adrc.engine.batch import BatchWalk, Preparation, left_by
+from biped_adrc.engine.batch import BatchWalk, Preparation, Ready, left_by, walks_of
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
@@ -71,7 +71,7 @@ JUDGED = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", 
 """Columns that `Feasibility` has under the same names."""
 OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
 """Columns of `analysis.ground_force.totals`."""
-_AT_ONCE = 160
+_AT_ONCE = 400
 """Most impacts, over all walks in memory together: the nodes of a walk take some 80 kB for each impact."""
 _PREPARING = Lock()
 """Held while walkers are built or plants used: threads of a process share robots and compiled code."""
@@ -119,7 +119,7 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
         some = trials[i : i + size]
         with _PREPARING:
             runs = _each(prepared, some)
-        walks = _each(lambda run: run(), runs)  # calls what `prepared` has returned
+        walks = walks_of([x if isinstance(x, Ready) else partial(_walked, x) for x in runs])()
         with _PREPARING:
             pairs = zip(some, walks, strict=True)
             rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]
@@ -135,6 +135,11 @@ def _run_of(prepare: Preparation, t: Trial) -> Callable[[], BatchWalk]:
     if loop is None:
         return prepare(c)
     return lambda: left_by(c, walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts))
+
+
+def _walked(run: Any) -> Any:
+    """The walk that a run returns; a row that an earlier stage left is passed on."""
+    return run if isinstance(run, dict) else _attempt(lambda run: run(), run)
 
 
 def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:

@@ -36,7 +36,7 @@ from biped_adrc.engine.symbols import Vector, column
 from biped_adrc.engine.tracer import Tracer, apply
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Curve
-from biped_adrc.gait.outputs import LinearOutputs, Outputs
+from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs, Outputs
 from biped_adrc.gait.reference import check_point
 from biped_adrc.hardware.motors import Line, Motors, TorqueLine
 from biped_adrc.hardware.sensing import Sensor
@@ -224,7 +224,9 @@ def _(outputs: Outputs):
         ahead, behind = (moved(outputs, m, a, s) for s in (d, -d))
         slopes = [(one - other) / (2.0 * d) for one, other in zip(ahead, behind, strict=True)]
         assert np.max(np.abs(slopes[0] - o.dy)) <= 1e-6 * (1.0 + np.max(np.abs(o.dy)))
-        agree(called, outputs, m.t, m.q, m.v)
+        # differences over 4e-3 rad divide the round-off of sin, which is not that of NumPy, by 1.6e-5
+        within = 1e-10 if isinstance(outputs, FunctionOutputs) else 1e-12
+        agree(called, outputs, m.t, m.q, m.v, within=within)
         ddy = o.J @ a + o.drift
         assert np.max(np.abs(slopes[1] - ddy)) <= 1e-5 * (1.0 + np.max(np.abs(ddy)))
     conforms(OutputNPDController(outputs))
@@ -525,8 +527,8 @@ TRACED = {}
 """A law and the structure of its arguments -> its machine code, which serves all their numbers."""
 
 
-def agree(law, *arguments):
-    """The result in Python, equal to that of the machine code to 1e-12 of its largest number.
+def agree(law, *arguments, within=1e-12):
+    """The result in Python, equal to that of the machine code within this part of its largest number.
 
     The code solves linear systems by an elimination of its own, so round-off differs from LAPACK's.
     """
@@ -541,5 +543,5 @@ def agree(law, *arguments):
         TRACED[key] = Code(text, ("law",))
     code, one = TRACED[key], flatten(expected)
     other = call(code, "law", numbers, np.zeros(1), len(one))
-    assert np.max(np.abs(one - other), initial=0.0) <= 1e-12 * np.max(np.abs(one), initial=1.0)
+    assert np.max(np.abs(one - other), initial=0.0) <= within * np.max(np.abs(one), initial=1.0)
     return expected

@@ -77,27 +77,33 @@ def land(r: Run) -> int:
 
 
 @unit
-def stride(r: Run, impacts: int, strikes: Array) -> int:
-    """Move the run over `impacts` impacts (COMPLETED), or until t_end (TIME_OUT) or a failure; returns its
-    code.
+def land_and_note(r: Run) -> int:
+    """Compute the impact at t as `land` does, and store its row (t, x-, x+) in `strikes`; returns the code."""
+    nx, row = r.nx, shift(r.strikes, r.struck * (1 + 2 * r.nx))
+    copy(r.x0, shift(row, 1), nx)
+    code = land(r)
+    if code == 0:
+        row[0] = r.t
+        copy(r.x0, shift(row, 1 + nx), nx)
+        r.struck += 1
+    return code
 
-    strikes (impacts, 1 + 2 nx) gets a row (t, x-, x+) of each impact made.
+
+@unit
+def stride(r: Run) -> int:
+    """Move the run over impacts until `struck` of them are `most` (COMPLETED), or until t_end (TIME_OUT) or a
+    failure; returns its code.
     """
-    nx = r.nx
-    for count in range(impacts):
+    while r.struck < r.most:
         code = go_on(r)
         # r.look: function whose output `node` stores at the start of each step; the end of the run is added
         if code == COMPLETED and r.look != 0:
             node(r, r.t, r.x0, r.dx0)
         if code != STRUCK:
             return TIME_OUT if code == COMPLETED else code
-        row = shift(strikes, count * (1 + 2 * nx))
-        copy(r.x0, shift(row, 1), nx)
-        code = land(r)
+        code = land_and_note(r)
         if code != 0:
             return code
-        row[0] = r.t
-        copy(r.x0, shift(row, 1 + nx), nx)
     return COMPLETED
 
 
@@ -149,36 +155,6 @@ def push(r: Run, x: float, z: float) -> None:
         F[0], F[1] = x, z
         # r.load is the sum over the terms; without a term nothing else would set it back to zero
         load_of(r)
-
-
-@unit
-def samples(
-    walks: Ints, count: int, width: int, inputs: Array, states: Array, codes: Ints, impacts: Ints
-) -> int:
-    """Move each of `count` walks whose code is COMPLETED by one sample. Returns how many of them ended a single
-    support, by an impact or with the walk.
-
-    walks (count,): addresses of their runs, 0 for none; inputs (count, p + 2): torque [N m] and force [N] of
-    each. The others are written: codes (count,), COMPLETED or how the walk ended; states (count, width = 2 +
-    nx), rows (t, step, x) after it, unchanged for a walk that is not moved; impacts (count,), how many were
-    made, -1 for a walk that is not moved.
-    """
-    over = 0
-    for i in range(count):
-        impacts[i] = -1
-        if codes[i] == COMPLETED and walks[i] != 0:
-            r = run_at(walks[i])  # the run at this address
-            u = shift(inputs, i * (r.p + 2))
-            copy(u, r.torque, r.p)
-            push(r, u[r.p], u[r.p + 1])
-            step = r.step
-            codes[i] = sample(r)
-            impacts[i] = int(r.step - step)
-            over += int(impacts[i] > 0 or codes[i] != COMPLETED)
-            row = shift(states, i * width)
-            row[0], row[1] = r.t, r.step
-            copy(r.x0, shift(row, 2), r.nx)
-    return over
 
 
 @unit

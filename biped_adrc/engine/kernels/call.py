@@ -107,6 +107,13 @@ def run_at(typingctx: object, address: Type) -> Generated:
     return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
 
 
+@intrinsic
+def cell_of(typingctx: object, vector: Type) -> Generated:
+    """Intrinsic: a vector as whole numbers."""
+    pointer = ir.IntType(64).as_pointer()
+    return _CELLS(vector), lambda context, builder, signature, x: builder.bitcast(x[0], pointer)
+
+
 # -- fields of a run -------------------------------------------------------------------------------
 class _Fields(AttributeTemplate):
     """Tells numba the type of r.name, for a run r."""
@@ -140,8 +147,10 @@ def _read(
 
 
 def _write(context: Context, builder: ir.IRBuilder, signature: Any, x: Any, name: str) -> None:
-    """Write the instructions for r.name = value, where x is (r, value)."""
-    builder.store(x[1], _cell(builder, x[0], name))
+    """Write the instructions for r.name = value, where x is (r, value); of a vector the address is stored."""
+    number = KINDS[name] in ("int", "float")
+    value = x[1] if number else builder.ptrtoint(x[1], ir.IntType(64))
+    builder.store(value, _cell(builder, x[0], name))
 
 
 # numba knows no attributes of a pointer. With these three r.x0 reads a cell, and the march can use the same

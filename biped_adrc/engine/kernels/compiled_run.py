@@ -97,6 +97,7 @@ class CompiledRun:
         run["t"] = run["t_arc"] = t
         # fired -1: no event has ended an arc before
         run["step"], run["t_start"], run["t_end"], run["fired"] = step, t_start, t_end, -1
+        run["last"] = t_end
         run.x[:] = x
         return run
 
@@ -132,14 +133,19 @@ class CompiledRun:
         count, self["count"] = int(self["count"]), 0
         return self.nodes[:count]
 
-    def stride(self, impacts: int) -> tuple[Status, Array]:
-        """Run over so many impacts, or until t_end (TIME_OUT) or a failure. Returns the status, and a row (t,
-        x-, x+) of each impact that was made.
+    def stride(self) -> Status:
+        """Move the run over the impacts for which `strikes` took memory, or until t_end (TIME_OUT) or a
+        failure; returns how it ended.
         """
-        strikes, step = np.zeros((impacts, 1 + 2 * self.nx)), self["step"]
-        code = kernels().stride(self.address, impacts, strikes.ctypes.data)
-        # `step` counts on at each impact
-        return STATUS[code], strikes[: int(self["step"] - step)]
+        return STATUS[kernels().stride(self.address)]
+
+    def strikes(self, impacts: int) -> Array:
+        """Take memory for so many impacts, and return it: rows (t, x-, x+), of which the first `struck` are
+        written when the run has been moved."""
+        strikes = np.zeros((impacts, 1 + 2 * self.nx))
+        # the owner of the run keeps the array; the run has its address alone
+        self["strikes"], self["most"], self["struck"] = strikes.ctypes.data, impacts, 0
+        return strikes
 
 
 def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRun:
@@ -153,6 +159,7 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
     # guards: a walker has three event functions; nN: of N_E only row 1 is stored, since the others are zero
     values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p, "levels": len(tables["phi"])}
     values |= {f"n_{name}": len(tables[name]) for name in ("drops", "switches", "parts")}
+    values |= {f"n_{name}": tables[name].size for name in ("K", "push")}
     # ends: first cell of each vector, then the number of all cells; places: cells of addresses, where they lead
     ends, places = _places(tuple(tables[name].size for name in TABLES), width)
     cells = np.zeros(ends[-1], dtype=np.int64)

@@ -30,6 +30,7 @@ FILES = (
     "biped_adrc.hybrid.relaxation",
     "biped_adrc.hybrid.march",
     f"{_HERE}.arc",
+    f"{_HERE}.lanes",
 )
 """The modules of the march, in an order in which each one comes after those that it needs."""
 WRITER = f"{_HERE}.write"
@@ -37,9 +38,9 @@ WRITER = f"{_HERE}.write"
 
 
 def kernels() -> Any:
-    """The functions of the compiled march that Python calls, by name: `stride`, `samples` and `looks`."""
+    """The functions of the compiled march that Python calls, by name."""
     # numbers of their arguments
-    return compiled(FILES, stride=3, samples=7, looks=5)
+    return compiled(FILES, stride=1, samples=8, looks=5, side_by_side=4)
 
 
 def compiled(files: tuple[str, ...], **arguments: int) -> Any:

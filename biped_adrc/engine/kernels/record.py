@@ -32,6 +32,24 @@ OUTSIDE = 2
 vertical forces on both feet."""
 
 
+# A block of several walks has rows, each with one number of every walk. Its first rows are t, the number of the
+# single support and its start; the others begin at the places that `block_rows` returns, in this order:
+X, LOAD, T1, LIMIT, DROP, FARTHEST, FASTEST, VALUES, MARK = range(9)
+SLOPE, WEIGHTS, BREAK, NEXT, STAGE, STAGE_LOAD, END = range(9, 16)
+"""State (nx,); disturbance (n,) and force from outside (OUTSIDE,) at t; end of the step [s]; latest time [s] at
+which the disturbance is evaluated in it; how much lower the ground is at the end of this single support [m];
+bounds of angles [rad] and rates (n,) [rad/s]; event functions (3,) at the end of the step; mark, 1 where all
+went as usual, else 0; x' (nx,) at t; weights of lagging torques (4,); time [s] from which the waiting torque
+acts, and of the next sample instant; time, single support and (q, v) at a stage, and disturbance and force
+there. At END stand two cells: the address of the compiled disturbance, 0 for none, and of its numbers."""
+
+
+def block_rows(n: int, nx: int) -> Ints:
+    """First rows of the parts of a block, for n coordinates and states of nx numbers."""
+    push = n + OUTSIDE
+    return np.cumsum((3, nx, push, 1, 1, 1, 1, n, 3, 1, nx, 4, 1, 1, 3 + 2 * n, push))
+
+
 class Run:
     """The fields of a run by name: in compiled code r.name reads its cell, and r.name = x writes it.
 
@@ -90,6 +108,10 @@ class Run:
     """1 where the clock restarts with each arc."""
     lags: int
     """Index in x of the first torque of lagging motors; 0 without."""
+    n_K: int
+    """Numbers in `K`."""
+    n_push: int
+    """Numbers in `push`."""
     n_drops: int
     """Rows of `drops`."""
     n_switches: int
@@ -152,12 +174,20 @@ class Run:
     """A node is kept every so many integration steps; 0 for never."""
     count: int
     """Number of nodes kept so far."""
+    kept: int
+    """Number of nodes before the sample that is made side by side."""
     room: int
     """Rows of `nodes`, more than the arcs can have."""
     width: int
     """Numbers in a row of `nodes`."""
     sloped: int
     """1 where dx0 is the slope at x0 already."""
+    most: int
+    """Number of impacts after which the run ends as COMPLETED; `strikes` has rows for them."""
+    struck: int
+    """Number of impacts so far."""
+    last: float
+    """End of the run [s], at the latest, where t_end is that of a sample."""
     lost: int
     """Status for which a pivot of 0 or below stands, SINGULAR or RAN_AWAY; 0 for none."""
     drop: float
@@ -173,6 +203,26 @@ class Run:
     """End of the bracket of an event [s]."""
     f_far: float
     """The event function at t_far."""
+    strikes: Array
+    """Rows (t, x-, x+) of the impacts."""
+    # -- of a team of walks side by side (`kernels.lanes`)
+    lanes: int
+    """How many they are."""
+    pushes: int
+    """Address of the disturbance's function for all of them."""
+    at: Ints
+    """`block_rows` a block."""
+    now: Array
+    """Block of rows at a sample instant."""
+    then: Array
+    """Block of rows after it."""
+    results: Array
+    """Results of `look` (.., lanes)."""
+    team: Ints
+    """Addresses of their runs (lanes,), 0 for none."""
+    seats: Ints
+    """Which walk sits in each lane (lanes,), -1 for none; for samples under inputs see `lanes.samples`."""
+    # -- of each run
     nodes: Array
     """Rows (t, x, x'); with `look` (t, step, force from outside (2,), output of `look`) at each integration
     step and at the end, at a break after what happens there; where a force from outside may jump, before it

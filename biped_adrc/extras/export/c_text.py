@@ -13,8 +13,9 @@ so is its value. Its field `of` has
     (0, index in K) or (1, index)     of an input: a parameter of the vector K, or one of the inputs
     (place of its value, index)       of an output: where in the list its value is, and where it is written
 
-The text needs from the C file around it: `real`, F(f) for the C library's function f of that type, LEAST and
-GREATEST, which pass NaN on, and the table k of those parameters K that are read, as constants in double.
+The text needs from the C file around it: `real`, F(f) for the C library's function f of that type, sine(x, 0)
+and sine(x, 1) for sin and cos, LEAST and GREATEST, which pass NaN on, and the table k of those parameters K
+that are read, as constants in double.
 """
 
 import math
@@ -48,6 +49,8 @@ _PATTERNS: Patterns = {
     ca.OP_FABS: "{F}(fabs)({a})",
     ca.OP_SQRT: "{F}(sqrt)({a})",
     ca.OP_FLOOR: "{F}(floor)({a})",
+    ca.OP_SIN: "{F}(sine)({a}, 0)",
+    ca.OP_COS: "{F}(sine)({a}, 1)",
     **{
         code: f"{{F}}({name})({{a}}, {{b}})" if name == "pow" else f"{{F}}({name})({{a}})"
         for code, name in OF_C.items()

@@ -5,7 +5,7 @@ The same scenario gives the same bytes: the text contains no date, machine or pa
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -18,6 +18,7 @@ from biped_adrc.core.checks import spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import c_comment, one_line
 from biped_adrc.core.versions import packages
+from biped_adrc.engine import sine
 from biped_adrc.engine.leaves import floats, paths
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.extras.export.c_text import Written, c_text, decimal, read_by
@@ -103,6 +104,8 @@ def source_of(
         "prefix": prefix,
         "P": prefix.upper(),
         "real": REALS[real],
+        "sine": vars(sine),
+        "sine_wide": _sine_in_double(written.values()),
         # the computer's plant is the model that the controller knows
         "numbers": [(names[i].replace("plant", "model", 1), decimal(values[i])) for i in used],
         "laws": [(name, ARGUMENTS[name], written[name].lines) for name in written],
@@ -188,6 +191,12 @@ def rendered_c(template: str, words: Mapping[str, object]) -> str:
 
 
 @cache
+def _sine_in_double(texts: Iterable[Written]) -> bool | None:
+    """Whether sin or cos is in double also if `real` is float; None where the text has neither."""
+    calls = [line for text in texts for line in text.lines if "(sine)" in line]
+    return any("F(sine)" not in line for line in calls) if calls else None
+
+
 def _environment(suffix: str) -> Environment:
     """Jinja's environment for files with this suffix, made once.
 

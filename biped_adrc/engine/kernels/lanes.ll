@@ -1,4 +1,4 @@
-; sources 415b523c631b15a00a9d77f2a37705bb, text f2546e3dc71a2a073194f3138dee479d
+; sources 6e9048e050b0164a72285ee636f29d57, text 6d889a88f803c54bf58b346079071b97
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -6,13 +6,11 @@
 @_ZN08NumbaEnv18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v12B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3dueB3v13B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11relax_slopeB3v23B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5relaxB3v22B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29 = weak local_unnamed_addr global ptr null
@@ -43,7 +41,6 @@
 @_ZN08NumbaEnv18biped_adrc_kernels6passedB3v46B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7suspectB3v54B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addx = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7hermiteB3v55B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7crossedB3v48B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addd = weak local_unnamed_addr global ptr null
@@ -59,7 +56,6 @@
 @_ZN08NumbaEnv18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5nodesB3v67B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6piecesB3v51B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEdd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7pass_onB3v68B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -67,28 +63,68 @@
 @_ZN08NumbaEnv18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels9next_tickB3v75B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v52B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7is_tickB3v15B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels13land_and_noteB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6strideB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6sampleB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels4lookB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v17B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels4pushB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels8is_plainB3v85B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7is_tickB3v15B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels9next_tickB3v75B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v52B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v12B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels3aimB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6flightB4v110B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10sample_allB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v87B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v88B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels12side_by_sideB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB4v115B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7samplesB4v118B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v82B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB4v119B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v65B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEb = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 
 define i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r) local_unnamed_addr {
 B0.endif:
@@ -96,7 +132,7 @@ B0.endif:
   %.9 = load i64, ptr %.8, align 8
   %.9.fr = freeze i64 %.9
   %.10 = add i64 %.9.fr, 2
-  %.12 = getelementptr i8, ptr %arg.r, i64 296
+  %.12 = getelementptr i8, ptr %arg.r, i64 312
   %.13 = load i64, ptr %.12, align 8
   %.59 = icmp slt i64 %.9.fr, -1
   %..10 = select i1 %.59, i64 0, i64 %.10
@@ -110,7 +146,7 @@ B70.lr.ph:
 
 B70.lr.ph.new:
   %unroll_iter = and i64 %..10, 9223372036854775800
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 504
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 624
   br label %B70
 
 B70:
@@ -264,7 +300,7 @@ B94.endif.loopexit.unr-lcssa:
 
 B70.epil.preheader:
   %.1098284.epil.init = phi i64 [ 0, %B70.lr.ph ], [ %unroll_iter, %B94.endif.loopexit.unr-lcssa ]
-  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 504
+  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 624
   br label %B70.epil
 
 B70.epil:
@@ -281,17 +317,17 @@ B70.epil:
   br i1 %epil.iter.cmp.not, label %B94.endif, label %B70.epil, !llvm.loop !7
 
 B94.endif:
-  %.159 = getelementptr i8, ptr %arg.r, i64 184
+  %.159 = getelementptr i8, ptr %arg.r, i64 200
   %.160 = load i64, ptr %.159, align 8
   %.24089.not = icmp slt i64 %.160, 1
   br i1 %.24089.not, label %common.ret, label %B136.lr.ph
 
 B136.lr.ph:
-  %.279 = getelementptr i8, ptr %arg.r, i64 304
+  %.279 = getelementptr i8, ptr %arg.r, i64 320
   %.280.pre = load i64, ptr %.279, align 8
   %xtraiter.i = and i64 %.10, 7
-  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 488
-  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 512
+  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 608
+  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 632
   br i1 %.59, label %B136.us.preheader, label %B136.lr.ph.split
 
 B136.us.preheader:
@@ -330,7 +366,7 @@ B136.lr.ph.split:
 B136.preheader:
   %7 = inttoptr i64 %.13 to ptr
   %8 = icmp eq i64 %xtraiter.i, 0
-  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 504
+  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 624
   %9 = sub nsw i64 %.9.fr, %xtraiter.i
   %10 = shl nuw nsw i64 %xtraiter.i, 3
   br label %B136
@@ -341,7 +377,7 @@ B136.lr.ph.split.split.us:
   br i1 %11, label %B136.us2.us, label %B136.us2.preheader
 
 B136.us2.preheader:
-  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 504
+  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 624
   br label %B136.us2
 
 B136.us2.us:
@@ -494,7 +530,7 @@ B0:
   %excinfo.5 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 80
   %.18 = load i64, ptr %.17, align 8
-  %.20 = getelementptr i8, ptr %arg.r, i64 488
+  %.20 = getelementptr i8, ptr %arg.r, i64 608
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
   %.24 = getelementptr i8, ptr %arg.r, i64 96
@@ -531,13 +567,13 @@ common.ret:
   ret i32 %common.ret.op
 
 B258.endif:
-  %.115 = getelementptr i8, ptr %arg.r, i64 440
+  %.115 = getelementptr i8, ptr %arg.r, i64 488
   %.117 = load double, ptr %.115, align 8
   %.12.i = fcmp olt double %.117, %arg.t
   %.13.i = select i1 %.12.i, double %.117, double %arg.t
-  %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
+  %.6.i.i = getelementptr i8, ptr %arg.r, i64 352
   %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !9
-  %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.9.i.i = getelementptr i8, ptr %arg.r, i64 360
   %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !9
   %.13.i.i = load i64, ptr %.20, align 8, !noalias !9
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
@@ -550,7 +586,7 @@ B258.endif:
   %.24.i.i = inttoptr i64 %.23.i.i to ptr
   %.25.i.i = getelementptr i8, ptr %.24.i.i, i64 16
   store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !9
-  %.37.i = getelementptr i8, ptr %arg.r, i64 184
+  %.37.i = getelementptr i8, ptr %arg.r, i64 200
   %.38.i = load i64, ptr %.37.i, align 8, !noalias !14
   %.39.i = icmp sgt i64 %.38.i, 0
   br i1 %.39.i, label %B58.i, label %B258.endif.endif
@@ -560,7 +596,7 @@ B58.i:
   br label %B258.endif.endif
 
 B258.endif.endif:
-  %.176 = getelementptr i8, ptr %arg.r, i64 504
+  %.176 = getelementptr i8, ptr %arg.r, i64 624
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
   %0 = getelementptr double, ptr %.22, i64 %.18
@@ -575,7 +611,7 @@ B258.endif.endif:
 
 B258.endif.endif.endif:
   %.212 = load i64, ptr %arg.r, align 8
-  %.214 = getelementptr i8, ptr %arg.r, i64 256
+  %.214 = getelementptr i8, ptr %arg.r, i64 272
   %.215 = load i64, ptr %.214, align 8
   %.216 = inttoptr i64 %.215 to ptr
   %.219 = inttoptr i64 %.212 to ptr
@@ -588,7 +624,7 @@ B258.endif.endif.endif:
 B16.i:
   %.17.i = fcmp oeq double %.227, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i, i64 5, i64 8
-  %.30.i = getelementptr i8, ptr %arg.r, i64 424
+  %.30.i = getelementptr i8, ptr %arg.r, i64 472
   store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !15
   store double 0x7FF8000000000000, ptr %arg.dx, align 8, !noalias !15
   br label %common.ret
@@ -797,9 +833,9 @@ B0:
   %excinfo.4 = alloca ptr, align 8
   %.188 = alloca ptr, align 8
   %excinfo.5 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 488
+  %.17 = getelementptr i8, ptr %arg.r, i64 608
   %.18 = load i64, ptr %.17, align 8
-  %.24 = getelementptr i8, ptr %arg.r, i64 184
+  %.24 = getelementptr i8, ptr %arg.r, i64 200
   %.25 = load i64, ptr %.24, align 8
   %.26 = icmp sgt i64 %.25, 0
   br i1 %.26, label %B40, label %B194.endif
@@ -808,10 +844,10 @@ B40:
   %0 = inttoptr i64 %.18 to ptr
   %.29 = getelementptr i8, ptr %arg.r, i64 40
   %.30 = load i64, ptr %.29, align 8
-  %.32 = getelementptr i8, ptr %arg.r, i64 256
+  %.32 = getelementptr i8, ptr %arg.r, i64 272
   %.33 = load i64, ptr %.32, align 8
   %.34 = inttoptr i64 %.33 to ptr
-  %.36 = getelementptr i8, ptr %arg.r, i64 496
+  %.36 = getelementptr i8, ptr %arg.r, i64 616
   %.37 = load i64, ptr %.36, align 8
   %.38 = inttoptr i64 %.37 to ptr
   %.40 = inttoptr i64 %.30 to ptr
@@ -835,13 +871,13 @@ common.ret:
   ret i32 %common.ret.op
 
 B194.endif:
-  %.82 = getelementptr i8, ptr %arg.r, i64 440
+  %.82 = getelementptr i8, ptr %arg.r, i64 488
   %.84 = load double, ptr %.82, align 8
   %.12.i = fcmp olt double %.84, %arg.t
   %.13.i = select i1 %.12.i, double %.84, double %arg.t
-  %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
+  %.6.i.i = getelementptr i8, ptr %arg.r, i64 352
   %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !25
-  %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
+  %.9.i.i = getelementptr i8, ptr %arg.r, i64 360
   %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !25
   %.13.i.i = load i64, ptr %.17, align 8, !noalias !25
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
@@ -874,7 +910,7 @@ B194.endif.endif:
   ], !prof !8
 
 B194.endif.endif.endif:
-  %.176 = getelementptr i8, ptr %arg.r, i64 504
+  %.176 = getelementptr i8, ptr %arg.r, i64 624
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
   %.181 = load i64, ptr %.145, align 8
@@ -891,7 +927,7 @@ B194.endif.endif.endif:
 B194.endif.endif.endif.endif:
   %.213 = getelementptr i8, ptr %arg.r, i64 48
   %.214 = load i64, ptr %.213, align 8
-  %.216 = getelementptr i8, ptr %arg.r, i64 256
+  %.216 = getelementptr i8, ptr %arg.r, i64 272
   %.217 = load i64, ptr %.216, align 8
   %.218 = inttoptr i64 %.217 to ptr
   %.221 = inttoptr i64 %.214 to ptr
@@ -906,7 +942,7 @@ B194.endif.endif.endif.endif:
 B16.i:
   %.17.i = fcmp oeq double %.231, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i, i64 5, i64 8
-  %.30.i = getelementptr i8, ptr %arg.r, i64 424
+  %.30.i = getelementptr i8, ptr %arg.r, i64 472
   store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !31
   store double 0x7FF8000000000000, ptr %arg.N, align 8, !noalias !31
   br label %common.ret
@@ -935,11 +971,11 @@ define i32 @_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRY
 B0:
   %.36 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.8 = getelementptr i8, ptr %arg.r, i64 344
+  %.8 = getelementptr i8, ptr %arg.r, i64 360
   %.10 = load double, ptr %.8, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 432
+  %.11 = getelementptr i8, ptr %arg.r, i64 480
   %.13 = load double, ptr %.11, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 488
+  %.14 = getelementptr i8, ptr %arg.r, i64 608
   %.15 = load i64, ptr %.14, align 8
   %.16 = inttoptr i64 %.15 to ptr
   store double %arg.t, ptr %.16, align 8
@@ -971,7 +1007,7 @@ common.ret:
 B0.endif:
   %.62 = getelementptr i8, ptr %arg.r, i64 24
   %.63 = load i64, ptr %.62, align 8
-  %.64 = getelementptr i8, ptr %arg.r, i64 256
+  %.64 = getelementptr i8, ptr %arg.r, i64 272
   %.65 = load i64, ptr %.64, align 8
   %.66 = inttoptr i64 %.65 to ptr
   %.68 = load i64, ptr %.14, align 8
@@ -982,52 +1018,22 @@ B0.endif:
 }
 
 
-define noalias ptr @watch(ptr readonly %.1, double %.2, ptr readonly %.3, ptr %.4) local_unnamed_addr #0 {
+define ptr @watch(ptr readonly %.1, double %.2, ptr readonly %.3, ptr %.4) local_unnamed_addr #0 {
 entry:
-  %.36.i = alloca ptr, align 8
-  %excinfo.1.i = alloca ptr, align 8
-  %.8.i = getelementptr i8, ptr %.1, i64 344
-  %.10.i = load double, ptr %.8.i, align 8, !noalias !34
-  %.11.i = getelementptr i8, ptr %.1, i64 432
-  %.13.i = load double, ptr %.11.i, align 8, !noalias !34
-  %.14.i = getelementptr i8, ptr %.1, i64 488
-  %.15.i = load i64, ptr %.14.i, align 8, !noalias !34
-  %.16.i = inttoptr i64 %.15.i to ptr
-  store double %.2, ptr %.16.i, align 8, !noalias !34
-  %.20.i = load i64, ptr %.14.i, align 8, !noalias !34
-  %.21.i = inttoptr i64 %.20.i to ptr
-  %.22.i = getelementptr i8, ptr %.21.i, i64 8
-  store double %.10.i, ptr %.22.i, align 8, !noalias !34
-  %.25.i = load i64, ptr %.14.i, align 8, !noalias !34
-  %.26.i = inttoptr i64 %.25.i to ptr
-  %.27.i = getelementptr i8, ptr %.26.i, i64 16
-  store double %.13.i, ptr %.27.i, align 8, !noalias !34
-  %.31.i = load i64, ptr %.14.i, align 8, !noalias !34
-  %.32.i = inttoptr i64 %.31.i to ptr
-  %.33.i = getelementptr i8, ptr %.32.i, i64 24
-  %.34.i = getelementptr i8, ptr %.1, i64 72
-  %.35.i = load i64, ptr %.34.i, align 8, !noalias !34
-  %.40.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i, ptr nonnull %excinfo.1.i, ptr readonly %.3, ptr %.33.i, i64 %.35.i), !noalias !34
-  switch i32 %.40.i, label %entry.if [
-    i32 -2, label %_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a.exit.thread
-    i32 0, label %_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a.exit.thread
-  ], !prof !8
-
-_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a.exit.thread:
-  %.62.i = getelementptr i8, ptr %.1, i64 24
-  %.63.i = load i64, ptr %.62.i, align 8, !noalias !34
-  %.64.i = getelementptr i8, ptr %.1, i64 256
-  %.65.i = load i64, ptr %.64.i, align 8, !noalias !34
-  %.66.i = inttoptr i64 %.65.i to ptr
-  %.68.i = load i64, ptr %.14.i, align 8, !noalias !34
-  %.69.i = inttoptr i64 %.68.i to ptr
-  %.70.i = inttoptr i64 %.63.i to ptr
-  call void %.70.i(ptr %.66.i, ptr %.69.i, ptr %.4) #0, !noalias !34
-  ret ptr null
+  %.6 = alloca ptr, align 8
+  store ptr null, ptr %.6, align 8
+  %excinfo = alloca ptr, align 8
+  %.10 = call i32 @_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, double %.2, ptr %.3, ptr %.4) #0
+  %cond = icmp eq i32 %.10, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
 entry.if:
-  call void @llvm.trap()
+  tail call void @llvm.trap()
   unreachable
+
+common.ret:
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
 }
 
 define i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr readonly %arg.x, ptr readonly %arg.dx) local_unnamed_addr {
@@ -1041,12 +1047,12 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 80
   %.18 = load i64, ptr %.17, align 8
-  %.20 = getelementptr i8, ptr %arg.r, i64 480
+  %.20 = getelementptr i8, ptr %arg.r, i64 600
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
-  %.24 = getelementptr i8, ptr %arg.r, i64 392
+  %.24 = getelementptr i8, ptr %arg.r, i64 408
   %.25 = load i64, ptr %.24, align 8
-  %.27 = getelementptr i8, ptr %arg.r, i64 408
+  %.27 = getelementptr i8, ptr %arg.r, i64 432
   %.28 = load i64, ptr %.27, align 8
   %.29 = mul nsw i64 %.28, %.25
   %.30 = getelementptr double, ptr %.22, i64 %.29
@@ -1065,7 +1071,7 @@ B118:
   ], !prof !8
 
 B250:
-  %.123 = getelementptr i8, ptr %arg.r, i64 488
+  %.123 = getelementptr i8, ptr %arg.r, i64 608
   %.124 = load i64, ptr %.123, align 8
   %.125 = inttoptr i64 %.124 to ptr
   %.126 = getelementptr i8, ptr %.125, i64 24
@@ -1091,58 +1097,58 @@ common.ret:
   ret i32 %common.ret.op
 
 B250.endif:
-  %.158 = getelementptr i8, ptr %arg.r, i64 192
+  %.158 = getelementptr i8, ptr %arg.r, i64 208
   %.159 = load i64, ptr %.158, align 8
   %.160.not = icmp eq i64 %.159, 0
   br i1 %.160.not, label %B414.endif, label %B344.endif
 
 B344.endif:
-  %.164 = getelementptr i8, ptr %arg.r, i64 440
+  %.164 = getelementptr i8, ptr %arg.r, i64 488
   %.166 = load double, ptr %.164, align 8
   %.12.i = fcmp olt double %.166, %arg.t
   %.13.i = select i1 %.12.i, double %.166, double %arg.t
-  %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !38
-  %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !38
-  %.13.i.i = load i64, ptr %.123, align 8, !noalias !38
+  %.6.i.i = getelementptr i8, ptr %arg.r, i64 352
+  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !34
+  %.9.i.i = getelementptr i8, ptr %arg.r, i64 360
+  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !34
+  %.13.i.i = load i64, ptr %.123, align 8, !noalias !34
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
-  store double %.13.i, ptr %.14.i.i, align 8, !noalias !38
-  %.18.i.i = load i64, ptr %.123, align 8, !noalias !38
+  store double %.13.i, ptr %.14.i.i, align 8, !noalias !34
+  %.18.i.i = load i64, ptr %.123, align 8, !noalias !34
   %.19.i.i = inttoptr i64 %.18.i.i to ptr
   %.20.i.i = getelementptr i8, ptr %.19.i.i, i64 8
-  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !38
-  %.23.i.i = load i64, ptr %.123, align 8, !noalias !38
+  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !34
+  %.23.i.i = load i64, ptr %.123, align 8, !noalias !34
   %.24.i.i = inttoptr i64 %.23.i.i to ptr
   %.25.i.i = getelementptr i8, ptr %.24.i.i, i64 16
-  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !38
-  %.37.i = getelementptr i8, ptr %arg.r, i64 184
-  %.38.i = load i64, ptr %.37.i, align 8, !noalias !43
+  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !34
+  %.37.i = getelementptr i8, ptr %arg.r, i64 200
+  %.38.i = load i64, ptr %.37.i, align 8, !noalias !39
   %.39.i = icmp sgt i64 %.38.i, 0
   br i1 %.39.i, label %B58.i, label %B414.endif
 
 B58.i:
-  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !43
+  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !39
   br label %B414.endif
 
 B414.endif:
-  %.6.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i = load double, ptr %.6.i, align 8, !noalias !44
-  %.9.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i = load double, ptr %.9.i, align 8, !noalias !44
-  %.13.i2 = load i64, ptr %.123, align 8, !noalias !44
+  %.6.i = getelementptr i8, ptr %arg.r, i64 352
+  %.8.i = load double, ptr %.6.i, align 8, !noalias !40
+  %.9.i = getelementptr i8, ptr %arg.r, i64 360
+  %.11.i = load double, ptr %.9.i, align 8, !noalias !40
+  %.13.i2 = load i64, ptr %.123, align 8, !noalias !40
   %.14.i = inttoptr i64 %.13.i2 to ptr
-  store double %arg.t, ptr %.14.i, align 8, !noalias !44
-  %.18.i = load i64, ptr %.123, align 8, !noalias !44
+  store double %arg.t, ptr %.14.i, align 8, !noalias !40
+  %.18.i = load i64, ptr %.123, align 8, !noalias !40
   %.19.i = inttoptr i64 %.18.i to ptr
   %.20.i = getelementptr i8, ptr %.19.i, i64 8
-  store double %.8.i, ptr %.20.i, align 8, !noalias !44
-  %.23.i = load i64, ptr %.123, align 8, !noalias !44
+  store double %.8.i, ptr %.20.i, align 8, !noalias !40
+  %.23.i = load i64, ptr %.123, align 8, !noalias !40
   %.24.i = inttoptr i64 %.23.i to ptr
   %.25.i = getelementptr i8, ptr %.24.i, i64 16
-  store double %.11.i, ptr %.25.i, align 8, !noalias !44
+  store double %.11.i, ptr %.25.i, align 8, !noalias !40
   %.254 = load double, ptr %.6.i, align 8
-  %.256 = getelementptr i8, ptr %arg.r, i64 504
+  %.256 = getelementptr i8, ptr %arg.r, i64 624
   %.257 = load i64, ptr %.256, align 8
   %.258 = inttoptr i64 %.257 to ptr
   %.260 = getelementptr i8, ptr %arg.r, i64 72
@@ -1158,7 +1164,7 @@ B414.endif:
   %.281 = getelementptr i8, ptr %.30, i64 24
   store double %.273, ptr %.281, align 8
   %.285 = load i64, ptr %.42, align 8
-  %.287 = getelementptr i8, ptr %arg.r, i64 256
+  %.287 = getelementptr i8, ptr %arg.r, i64 272
   %.288 = load i64, ptr %.287, align 8
   %.289 = inttoptr i64 %.288 to ptr
   %.292 = load i64, ptr %.123, align 8
@@ -1171,7 +1177,7 @@ B414.endif:
 B652.endif:
   %.303 = load i64, ptr %.24, align 8
   %.304 = add nsw i64 %.303, 1
-  %.306 = getelementptr i8, ptr %arg.r, i64 400
+  %.306 = getelementptr i8, ptr %arg.r, i64 424
   %.307 = load i64, ptr %.306, align 8
   %.308 = add nsw i64 %.307, -1
   %.13.i3 = tail call i64 @llvm.smin.i64(i64 %.308, i64 %.304)
@@ -1216,13 +1222,13 @@ B0:
   %.9 = load i64, ptr %.8, align 8
   %.11 = getelementptr i8, ptr %arg.r, i64 80
   %.12 = load i64, ptr %.11, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 544
+  %.14 = getelementptr i8, ptr %arg.r, i64 664
   %.15 = load i64, ptr %.14, align 8
-  %.18 = getelementptr i8, ptr %arg.r, i64 496
+  %.18 = getelementptr i8, ptr %arg.r, i64 616
   %.19 = load i64, ptr %.18, align 8
-  %.22 = getelementptr i8, ptr %arg.r, i64 552
+  %.22 = getelementptr i8, ptr %arg.r, i64 672
   %.23 = load i64, ptr %.22, align 8
-  %.51 = getelementptr i8, ptr %arg.r, i64 200
+  %.51 = getelementptr i8, ptr %arg.r, i64 216
   %.53 = load double, ptr %.51, align 8
   %.54 = fcmp ogt double %.53, 0.000000e+00
   br i1 %.54, label %B104.endif, label %B734
@@ -1247,12 +1253,12 @@ B668:
   %.516 = icmp sgt i64 %.12, %.373
   %or.cond = select i1 %.509, i1 %.516, i1 false
   %"$phi722.0.2.0" = zext i1 %or.cond to i64
-  %.533 = getelementptr i8, ptr %arg.r, i64 416
+  %.533 = getelementptr i8, ptr %arg.r, i64 440
   store i64 %"$phi722.0.2.0", ptr %.533, align 8
   br label %B734
 
 B734:
-  %.545 = getelementptr i8, ptr %arg.r, i64 208
+  %.545 = getelementptr i8, ptr %arg.r, i64 224
   %.547 = load double, ptr %.545, align 8
   %.548 = fcmp ogt double %.547, 0.000000e+00
   br i1 %.548, label %B756.endif, label %B996
@@ -1391,21 +1397,21 @@ B920.epil:
   %scevgep50 = getelementptr i8, ptr %lsr.iv, i64 8
   %lsr.iv.next = add nsw i64 %lsr.iv53, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B996, label %B920.epil, !llvm.loop !47
+  br i1 %epil.iter.cmp.not, label %B996, label %B920.epil, !llvm.loop !43
 
 B996:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
 B104.endif:
-  %.58 = getelementptr i8, ptr %arg.r, i64 328
+  %.58 = getelementptr i8, ptr %arg.r, i64 344
   %.60 = load double, ptr %.58, align 8
   %.8.i = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !48
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !44
   %.10.i = icmp eq i64 %.9.i, 1
-  %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 360, i64 216
+  %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
-  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !48
+  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !44
   %.7.i10 = fsub double %.60, %"$phi52.0.2.0.i"
   %.11.i11 = fdiv double %.7.i10, %.53
   %.12.i12 = fadd double %.11.i11, 5.000000e-01
@@ -1422,10 +1428,10 @@ B186.endif:
   store double 0x7FF8000000000000, ptr %22, align 8
   %.158 = getelementptr i8, ptr %arg.r, i64 8
   %.159 = load i64, ptr %.158, align 8
-  %.161 = getelementptr i8, ptr %arg.r, i64 256
+  %.161 = getelementptr i8, ptr %arg.r, i64 272
   %.162 = load i64, ptr %.161, align 8
   %.163 = inttoptr i64 %.162 to ptr
-  %.165 = getelementptr i8, ptr %arg.r, i64 488
+  %.165 = getelementptr i8, ptr %arg.r, i64 608
   %.166 = load i64, ptr %.165, align 8
   %.167 = inttoptr i64 %.166 to ptr
   %.169 = inttoptr i64 %.159 to ptr
@@ -1438,9 +1444,9 @@ B186.endif:
 B16.i:
   %.17.i21 = fcmp oeq double %.175, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i21, i64 5, i64 8
-  %.30.i = getelementptr i8, ptr %arg.r, i64 424
-  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !51
-  store double 0x7FF8000000000000, ptr %22, align 8, !noalias !51
+  %.30.i = getelementptr i8, ptr %arg.r, i64 472
+  store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !47
+  store double 0x7FF8000000000000, ptr %22, align 8, !noalias !47
   br label %B186.endif.endif
 
 B186.if.if:
@@ -1474,13 +1480,13 @@ vector.body.i:
   %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %34, %vector.body.i ]
   %sunkaddr114 = shl i64 %index.i, 3
   %sunkaddr115 = getelementptr i8, ptr %22, i64 %sunkaddr114
-  %wide.load.i = load <4 x double>, ptr %sunkaddr115, align 8, !noalias !54
+  %wide.load.i = load <4 x double>, ptr %sunkaddr115, align 8, !noalias !50
   %sunkaddr119 = getelementptr i8, ptr %sunkaddr115, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr119, align 8, !noalias !54
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr119, align 8, !noalias !50
   %sunkaddr123 = getelementptr i8, ptr %sunkaddr115, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr123, align 8, !noalias !54
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr123, align 8, !noalias !50
   %sunkaddr127 = getelementptr i8, ptr %sunkaddr115, i64 96
-  %wide.load7.i = load <4 x double>, ptr %sunkaddr127, align 8, !noalias !54
+  %wide.load7.i = load <4 x double>, ptr %sunkaddr127, align 8, !noalias !50
   %23 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
   %24 = fcmp one <4 x double> %23, splat (double 0x7FF0000000000000)
   %25 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
@@ -1495,7 +1501,7 @@ vector.body.i:
   %34 = and <4 x i1> %vec.phi4.i, %30
   %index.next.i = add nuw nsw i64 %index.i, 16
   %35 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %35, label %middle.block.i, label %vector.body.i, !llvm.loop !57
+  br i1 %35, label %middle.block.i, label %vector.body.i, !llvm.loop !53
 
 middle.block.i:
   %bin.rdx.i = and <4 x i1> %31, %32
@@ -1523,13 +1529,13 @@ vec.epilog.vector.body.i:
   %vec.phi13.i = phi <4 x i1> [ %39, %vec.epilog.ph.i ], [ %43, %vec.epilog.vector.body.i ]
   %40 = shl i64 %index12.i, 3
   %scevgep28.i = getelementptr i8, ptr %22, i64 %40
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !54
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !50
   %41 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
   %42 = fcmp one <4 x double> %41, splat (double 0x7FF0000000000000)
   %43 = and <4 x i1> %vec.phi13.i, %42
   %index.next15.i = add nuw i64 %index12.i, 4
   %44 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %44, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !58
+  br i1 %44, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !54
 
 vec.epilog.middle.block.i:
   %45 = bitcast <4 x i1> %43 to i4
@@ -1548,20 +1554,20 @@ B40.i:
   %.105.i = add nuw nsw i64 %.983941.i, 1
   %47 = shl i64 %.983941.i, 3
   %scevgep.i = getelementptr i8, ptr %22, i64 %47
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !54
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !50
   %48 = call double @llvm.fabs.f64(double %.132.i)
   %49 = fcmp one double %48, 0x7FF0000000000000
   %.136.i = and i1 %good.2.043.i, %49
   %exitcond.not.i = icmp eq i64 %.12, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !59
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !55
 
 _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
   %.136.lcssa.i = phi i1 [ %46, %vec.epilog.middle.block.i ], [ %37, %middle.block.i ], [ %.136.i, %B40.i ]
   br i1 %.136.lcssa.i, label %B422, label %B392.endif
 
 B392.endif:
-  %.8.i1 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !60
+  %.8.i1 = getelementptr i8, ptr %arg.r, i64 472
+  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !56
   %.10.i3 = icmp eq i64 %.9.i2, 0
   %spec.select.i = select i1 %.10.i3, i64 4, i64 %.9.i2
   store i64 %spec.select.i, ptr %retptr, align 8
@@ -1612,13 +1618,13 @@ B654.preheader:
 
 B756.endif:
   %.8.i4 = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i5 = load i64, ptr %.8.i4, align 8, !noalias !63
+  %.9.i5 = load i64, ptr %.8.i4, align 8, !noalias !59
   %.10.i6 = icmp eq i64 %.9.i5, 1
-  %"$phi52.0.2.0.in.v.i7" = select i1 %.10.i6, i64 360, i64 216
+  %"$phi52.0.2.0.in.v.i7" = select i1 %.10.i6, i64 376, i64 232
   %"$phi52.0.2.0.in.i8" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i7"
-  %"$phi52.0.2.0.i9" = load double, ptr %"$phi52.0.2.0.in.i8", align 8, !noalias !63
+  %"$phi52.0.2.0.i9" = load double, ptr %"$phi52.0.2.0.in.i8", align 8, !noalias !59
   %.580 = fadd double %.547, %"$phi52.0.2.0.i9"
-  %.585 = getelementptr i8, ptr %arg.r, i64 328
+  %.585 = getelementptr i8, ptr %arg.r, i64 344
   %.587 = load double, ptr %.585, align 8
   %.589 = fcmp ult double %.587, %.580
   br i1 %.589, label %B996, label %B824
@@ -1649,7 +1655,7 @@ B0:
   %excinfo.1 = alloca ptr, align 8
   %.112 = alloca ptr, align 8
   %excinfo.4 = alloca ptr, align 8
-  %.7 = getelementptr i8, ptr %arg.r, i64 488
+  %.7 = getelementptr i8, ptr %arg.r, i64 608
   %.8 = load i64, ptr %.7, align 8
   %.9 = inttoptr i64 %.8 to ptr
   %.10 = getelementptr i8, ptr %.9, i64 24
@@ -1668,38 +1674,38 @@ common.ret:
   ret i32 %common.ret.op
 
 B0.endif.endif:
-  %.40 = getelementptr i8, ptr %arg.r, i64 328
+  %.40 = getelementptr i8, ptr %arg.r, i64 344
   %.42 = load double, ptr %.40, align 8
-  %.43 = getelementptr i8, ptr %arg.r, i64 440
+  %.43 = getelementptr i8, ptr %arg.r, i64 488
   %.45 = load double, ptr %.43, align 8
   %.12.i = fcmp olt double %.45, %.42
   %.13.i = select i1 %.12.i, double %.45, double %.42
-  %.6.i.i = getelementptr i8, ptr %arg.r, i64 336
-  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !66
-  %.9.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !66
-  %.13.i.i = load i64, ptr %.7, align 8, !noalias !66
+  %.6.i.i = getelementptr i8, ptr %arg.r, i64 352
+  %.8.i.i = load double, ptr %.6.i.i, align 8, !noalias !62
+  %.9.i.i = getelementptr i8, ptr %arg.r, i64 360
+  %.11.i.i = load double, ptr %.9.i.i, align 8, !noalias !62
+  %.13.i.i = load i64, ptr %.7, align 8, !noalias !62
   %.14.i.i = inttoptr i64 %.13.i.i to ptr
-  store double %.13.i, ptr %.14.i.i, align 8, !noalias !66
-  %.18.i.i = load i64, ptr %.7, align 8, !noalias !66
+  store double %.13.i, ptr %.14.i.i, align 8, !noalias !62
+  %.18.i.i = load i64, ptr %.7, align 8, !noalias !62
   %.19.i.i = inttoptr i64 %.18.i.i to ptr
   %.20.i.i = getelementptr i8, ptr %.19.i.i, i64 8
-  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !66
-  %.23.i.i = load i64, ptr %.7, align 8, !noalias !66
+  store double %.8.i.i, ptr %.20.i.i, align 8, !noalias !62
+  %.23.i.i = load i64, ptr %.7, align 8, !noalias !62
   %.24.i.i = inttoptr i64 %.23.i.i to ptr
   %.25.i.i = getelementptr i8, ptr %.24.i.i, i64 16
-  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !66
-  %.37.i = getelementptr i8, ptr %arg.r, i64 184
-  %.38.i = load i64, ptr %.37.i, align 8, !noalias !71
+  store double %.11.i.i, ptr %.25.i.i, align 8, !noalias !62
+  %.37.i = getelementptr i8, ptr %arg.r, i64 200
+  %.38.i = load i64, ptr %.37.i, align 8, !noalias !67
   %.39.i = icmp sgt i64 %.38.i, 0
   br i1 %.39.i, label %B58.i, label %B0.endif.endif.endif
 
 B58.i:
-  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !71
+  %.7.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.r) #0, !noalias !67
   br label %B0.endif.endif.endif
 
 B0.endif.endif.endif:
-  %.99 = getelementptr i8, ptr %arg.r, i64 504
+  %.99 = getelementptr i8, ptr %arg.r, i64 624
   %.100 = load i64, ptr %.99, align 8
   %.101 = inttoptr i64 %.100 to ptr
   %.103 = load i64, ptr %.7, align 8
@@ -1748,8 +1754,6 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr readonly %arg.x, double %arg.h, ptr %arg.dx) local_unnamed_addr #0 {
 B0:
-  %.6.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.27 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.56 = alloca [4 x double], align 8
@@ -1758,10 +1762,10 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.184 = alloca ptr, align 8
   %excinfo.5 = alloca ptr, align 8
-  %.13 = getelementptr i8, ptr %arg.r, i64 240
+  %.13 = getelementptr i8, ptr %arg.r, i64 256
   %.15 = load double, ptr %.13, align 8
   %.17 = fmul double %arg.h, %.15
-  %.22 = getelementptr i8, ptr %arg.r, i64 576
+  %.22 = getelementptr i8, ptr %arg.r, i64 696
   %.23 = load i64, ptr %.22, align 8
   %.24 = inttoptr i64 %.23 to ptr
   %.25 = getelementptr i8, ptr %arg.r, i64 80
@@ -1773,7 +1777,7 @@ B0:
   ], !prof !8
 
 B278:
-  %"$phi278.4.2.0" = phi double [ %.166, %B236.endif.endif ], [ 0.000000e+00, %flow.exit ]
+  %"$phi278.4.2.0" = phi double [ %.166, %B236.endif.endif ], [ 0.000000e+00, %B0.endif.endif.endif ]
   %.188 = call i32 @_ZN18biped_adrc_kernels11relax_slopeB3v23B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad10float64_2a(ptr nonnull %.184, ptr nonnull %excinfo.5, ptr nonnull %arg.r, ptr %arg.x, double %"$phi278.4.2.0", ptr %arg.dx)
   switch i32 %.188, label %B278.if.if [
     i32 -2, label %common.ret
@@ -1806,15 +1810,7 @@ B0.endif.endif:
 B0.endif.endif.endif:
   %.113 = load i64, ptr %.22, align 8
   %.114 = inttoptr i64 %.113 to ptr
-  %.10.i = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.t, ptr readonly %.114, ptr %arg.dx) #0
-  %cond.i = icmp eq i32 %.10.i, 0
-  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit:
+  %.116 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t, ptr %.114, ptr %arg.dx)
   %.119 = fcmp ogt double %arg.h, 0.000000e+00
   br i1 %.119, label %B236.endif.endif, label %B278
 
@@ -1953,7 +1949,7 @@ B46.epil:
   store double %.158.epil, ptr %.164.epil, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B160, label %B46.epil, !llvm.loop !72
+  br i1 %epil.iter.cmp.not, label %B160, label %B46.epil, !llvm.loop !68
 
 B160:
   store ptr null, ptr %retptr, align 8
@@ -2199,7 +2195,7 @@ B46.epil:
   store double %.159.epil, ptr %.165.epil, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B170, label %B46.epil, !llvm.loop !73
+  br i1 %epil.iter.cmp.not, label %B170, label %B46.epil, !llvm.loop !69
 
 B170:
   store ptr null, ptr %retptr, align 8
@@ -2231,14 +2227,6 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, ptr %arg.x, ptr readonly %arg.dx, double %arg.h, ptr writeonly %arg.out) local_unnamed_addr #0 {
 B0:
-  %.7.i = alloca ptr, align 8
-  %excinfo.i15 = alloca ptr, align 8
-  %.6.i8 = alloca ptr, align 8
-  %excinfo.i9 = alloca ptr, align 8
-  %.6.i1 = alloca ptr, align 8
-  %excinfo.i2 = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.91 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.154 = alloca [4 x double], align 8
@@ -2267,7 +2255,7 @@ B0:
   %.26 = getelementptr i8, ptr %arg.r, i64 80
   %.27 = load i64, ptr %.26, align 8
   %.31 = sub nsw i64 %.27, %.24
-  %.33 = getelementptr i8, ptr %arg.r, i64 576
+  %.33 = getelementptr i8, ptr %arg.r, i64 696
   %.34 = load i64, ptr %.33, align 8
   %.67 = icmp sgt i64 %.31, 0
   br i1 %.67, label %B92, label %B244
@@ -2292,7 +2280,7 @@ B244:
   br i1 %.145, label %B266, label %B384
 
 B266:
-  %.149 = getelementptr i8, ptr %arg.r, i64 240
+  %.149 = getelementptr i8, ptr %arg.r, i64 256
   %.151 = load double, ptr %.149, align 8
   %.153 = fmul double %arg.h, %.151
   %.158 = call i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr nonnull %.154, ptr nonnull %excinfo.2, double %.153)
@@ -2302,10 +2290,10 @@ B266:
   ], !prof !8
 
 B384:
-  %dx.2.0 = phi ptr [ %.212, %lagging.exit ], [ %arg.dx, %B244 ]
-  %middle.2.0 = phi double [ %.168.fca.1.load, %lagging.exit ], [ 0.000000e+00, %B244 ]
-  %last.2.0 = phi double [ %.168.fca.2.load, %lagging.exit ], [ 0.000000e+00, %B244 ]
-  %end.2.0 = phi double [ %.168.fca.3.load, %lagging.exit ], [ 0.000000e+00, %B244 ]
+  %dx.2.0 = phi ptr [ %.212, %B266.endif ], [ %arg.dx, %B244 ]
+  %middle.2.0 = phi double [ %.168.fca.1.load, %B266.endif ], [ 0.000000e+00, %B244 ]
+  %last.2.0 = phi double [ %.168.fca.2.load, %B266.endif ], [ 0.000000e+00, %B244 ]
+  %end.2.0 = phi double [ %.168.fca.3.load, %B266.endif ], [ 0.000000e+00, %B244 ]
   %1 = inttoptr i64 %.34 to ptr
   %.218 = fmul double %arg.h, 5.000000e-01
   %.227 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.223, ptr nonnull %excinfo.3, ptr %arg.x, double %.218, ptr %dx.2.0, ptr %1, i64 %.24)
@@ -2323,18 +2311,10 @@ B450:
 
 B486:
   %.285 = fadd double %arg.t, %.218
-  %.287 = getelementptr i8, ptr %arg.r, i64 592
+  %.287 = getelementptr i8, ptr %arg.r, i64 712
   %.288 = load i64, ptr %.287, align 8
   %.289 = inttoptr i64 %.288 to ptr
-  %.10.i = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.285, ptr readonly %1, ptr %.289) #0
-  %cond.i = icmp eq i32 %.10.i, 0
-  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit:
+  %.292 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %1, ptr %.289)
   %.298 = load i64, ptr %.287, align 8
   %.299 = inttoptr i64 %.298 to ptr
   %.307 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.303, ptr nonnull %excinfo.5, ptr %arg.x, double %.218, ptr %.299, ptr %1, i64 %.24)
@@ -2351,18 +2331,10 @@ B620:
   ], !prof !8
 
 B656:
-  %.371 = getelementptr i8, ptr %arg.r, i64 600
+  %.371 = getelementptr i8, ptr %arg.r, i64 720
   %.372 = load i64, ptr %.371, align 8
   %.373 = inttoptr i64 %.372 to ptr
-  %.10.i3 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i1, ptr nonnull %excinfo.i2, ptr nonnull %arg.r, double %.285, ptr readonly %1, ptr %.373) #0
-  %cond.i4 = icmp eq i32 %.10.i3, 0
-  br i1 %cond.i4, label %flow.exit7, label %entry.if.i5, !prof !24
-
-entry.if.i5:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit7:
+  %.376 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %1, ptr %.373)
   %.380 = load i64, ptr %.371, align 8
   %.381 = inttoptr i64 %.380 to ptr
   %.390 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.386, ptr nonnull %excinfo.7, ptr %arg.x, double %arg.h, ptr %.381, ptr %1, i64 %.24)
@@ -2380,18 +2352,10 @@ B784:
 
 B820:
   %.451 = fadd double %arg.t, %arg.h
-  %.455 = getelementptr i8, ptr %arg.r, i64 608
+  %.455 = getelementptr i8, ptr %arg.r, i64 728
   %.456 = load i64, ptr %.455, align 8
   %.457 = inttoptr i64 %.456 to ptr
-  %.10.i10 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %.451, ptr readonly %1, ptr %.457) #0
-  %cond.i11 = icmp eq i32 %.10.i10, 0
-  br i1 %cond.i11, label %flow.exit14, label %entry.if.i12, !prof !24
-
-entry.if.i12:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit14:
+  %.460 = tail call ptr @flow(ptr nonnull %arg.r, double %.451, ptr %1, ptr %.457)
   %.466 = getelementptr double, ptr %arg.x, i64 %.24
   %.469 = getelementptr double, ptr %arg.out, i64 %.24
   %.475 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.471, ptr nonnull %excinfo.9, ptr %.466, ptr %.469, i64 %.31)
@@ -2408,8 +2372,8 @@ B1058:
   ], !prof !8
 
 common.ret:
-  %excinfo.sink = phi ptr [ %excinfo, %B1058.if.if ], [ %excinfo, %B820.endif ], [ %excinfo, %flow.exit14 ], [ %excinfo, %B784 ], [ %excinfo, %flow.exit7 ], [ %excinfo, %B620 ], [ %excinfo, %flow.exit ], [ %excinfo, %B450 ], [ %excinfo, %B384 ], [ %excinfo, %B266 ], [ %excinfo, %B92 ], [ %retptr, %B820.endif.endif ], [ %retptr, %B1058 ], [ %retptr, %B1058 ]
-  %common.ret.op = phi i32 [ %.559, %B1058.if.if ], [ %.519, %B820.endif ], [ %.475, %flow.exit14 ], [ %.424, %B784 ], [ %.390, %flow.exit7 ], [ %.341, %B620 ], [ %.307, %flow.exit ], [ %.261, %B450 ], [ %.227, %B384 ], [ %.158, %B266 ], [ %.95, %B92 ], [ 0, %B820.endif.endif ], [ 0, %B1058 ], [ 0, %B1058 ]
+  %excinfo.sink = phi ptr [ %excinfo, %B1058.if.if ], [ %excinfo, %B820.endif ], [ %excinfo, %B820 ], [ %excinfo, %B784 ], [ %excinfo, %B656 ], [ %excinfo, %B620 ], [ %excinfo, %B486 ], [ %excinfo, %B450 ], [ %excinfo, %B384 ], [ %excinfo, %B266 ], [ %excinfo, %B92 ], [ %retptr, %B820.endif.endif ], [ %retptr, %B1058 ], [ %retptr, %B1058 ]
+  %common.ret.op = phi i32 [ %.559, %B1058.if.if ], [ %.519, %B820.endif ], [ %.475, %B820 ], [ %.424, %B784 ], [ %.390, %B656 ], [ %.341, %B620 ], [ %.307, %B486 ], [ %.261, %B450 ], [ %.227, %B384 ], [ %.158, %B266 ], [ %.95, %B92 ], [ 0, %B820.endif.endif ], [ 0, %B1058 ], [ 0, %B1058 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
@@ -2420,18 +2384,10 @@ B266.endif:
   %.168.fca.2.load = load double, ptr %sunkaddr1, align 8
   %sunkaddr2 = getelementptr inbounds nuw i8, ptr %.154, i64 8
   %.168.fca.1.load = load double, ptr %sunkaddr2, align 8
-  %.201 = getelementptr i8, ptr %arg.r, i64 584
+  %.201 = getelementptr i8, ptr %arg.r, i64 704
   %.202 = load i64, ptr %.201, align 8
   %.203 = inttoptr i64 %.202 to ptr
-  %.11.i = call i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr nonnull %.7.i, ptr nonnull %excinfo.i15, ptr nonnull %arg.r, double %arg.t, ptr readonly %arg.x, double %arg.h, ptr %.203) #0
-  %cond.i16 = icmp eq i32 %.11.i, 0
-  br i1 %cond.i16, label %lagging.exit, label %entry.if.i17, !prof !24
-
-entry.if.i17:
-  tail call void @llvm.trap()
-  unreachable
-
-lagging.exit:
+  %.208 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %arg.x, double %arg.h, ptr %.203)
   %.211 = load i64, ptr %.201, align 8
   %.212 = inttoptr i64 %.211 to ptr
   br label %B384
@@ -2546,7 +2502,7 @@ vector.body:
   store <4 x double> %12, ptr %sunkaddr115, align 8
   %index.next = add nuw nsw i64 %index, 16
   %13 = icmp eq i64 %n.vec, %index.next
-  br i1 %13, label %middle.block, label %vector.body, !llvm.loop !74
+  br i1 %13, label %middle.block, label %vector.body, !llvm.loop !70
 
 middle.block:
   %cmp.n = icmp eq i64 %arg.size, %n.vec
@@ -2576,7 +2532,7 @@ vec.epilog.vector.body:
   store <4 x double> %17, ptr %scevgep55, align 8
   %index.next20 = add nuw i64 %index17, 4
   %18 = icmp eq i64 %n.vec14, %index.next20
-  br i1 %18, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !75
+  br i1 %18, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !71
 
 vec.epilog.middle.block:
   %cmp.n21 = icmp eq i64 %arg.size, %n.vec14
@@ -2604,7 +2560,7 @@ B36.prol:
   store double %.144.prol, ptr %scevgep54, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %prol.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %prol.iter.cmp.not, label %B36.prol.loopexit, label %B36.prol, !llvm.loop !76
+  br i1 %prol.iter.cmp.not, label %B36.prol.loopexit, label %B36.prol, !llvm.loop !72
 
 B36.prol.loopexit:
   %.1043941.unr = phi i64 [ %.1043941.ph, %B36.preheader ], [ %.111.prol, %B36.prol ]
@@ -2681,7 +2637,7 @@ B36:
   %sunkaddr184 = getelementptr i8, ptr %sunkaddr121, i64 56
   store double %.144.7, ptr %sunkaddr184, align 8
   %exitcond.not.7 = icmp eq i64 %arg.size, %.111.7
-  br i1 %exitcond.not.7, label %B86, label %B36, !llvm.loop !77
+  br i1 %exitcond.not.7, label %B86, label %B36, !llvm.loop !73
 
 B86:
   store ptr null, ptr %retptr, align 8
@@ -2814,7 +2770,7 @@ vector.body:
   store <4 x double> %34, ptr %sunkaddr172, align 8
   %index.next = add nuw nsw i64 %index, 16
   %35 = icmp eq i64 %n.vec, %index.next
-  br i1 %35, label %middle.block, label %vector.body, !llvm.loop !78
+  br i1 %35, label %middle.block, label %vector.body, !llvm.loop !74
 
 middle.block:
   %cmp.n = icmp eq i64 %arg.size, %n.vec
@@ -2854,7 +2810,7 @@ vec.epilog.vector.body:
   store <4 x double> %43, ptr %scevgep42, align 8
   %index.next44 = add nuw i64 %index38, 4
   %44 = icmp eq i64 %n.vec35, %index.next44
-  br i1 %44, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !79
+  br i1 %44, label %vec.epilog.middle.block, label %vec.epilog.vector.body, !llvm.loop !75
 
 vec.epilog.middle.block:
   %cmp.n45 = icmp eq i64 %arg.size, %n.vec35
@@ -2899,7 +2855,7 @@ B36.endif.prol:
   store double %.170.prol, ptr %scevgep36, align 8
   %lsr.iv.next35 = add nuw nsw i64 %lsr.iv34, 8
   %prol.iter.cmp.not = icmp eq i64 %46, %lsr.iv.next35
-  br i1 %prol.iter.cmp.not, label %B36.endif.prol.loopexit.loopexit, label %B36.endif.prol, !llvm.loop !80
+  br i1 %prol.iter.cmp.not, label %B36.endif.prol.loopexit.loopexit, label %B36.endif.prol, !llvm.loop !76
 
 B36.endif.prol.loopexit.loopexit:
   %47 = or disjoint i64 %.1134042.ph, %xtraiter
@@ -3005,7 +2961,7 @@ B36.endif:
   store double %.170.3, ptr %scevgep2, align 8
   %lsr.iv.next = add i64 %lsr.iv, 4
   %exitcond.not.3 = icmp eq i64 %52, %lsr.iv.next
-  br i1 %exitcond.not.3, label %B156, label %B36.endif, !llvm.loop !81
+  br i1 %exitcond.not.3, label %B156, label %B36.endif, !llvm.loop !77
 }
 
 
@@ -3029,12 +2985,6 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.level, double %arg.t, double %arg.h, ptr %arg.y, ptr readonly %arg.N, ptr %arg.out) local_unnamed_addr {
 B0.endif.endif.endif.endif:
-  %.6.i9 = alloca ptr, align 8
-  %excinfo.i10 = alloca ptr, align 8
-  %.6.i2 = alloca ptr, align 8
-  %excinfo.i3 = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.138 = alloca ptr, align 8
   %excinfo.5 = alloca ptr, align 8
   %.168 = alloca ptr, align 8
@@ -3063,12 +3013,12 @@ B0.endif.endif.endif.endif:
   %excinfo.22 = alloca ptr, align 8
   %.642 = alloca ptr, align 8
   %excinfo.23 = alloca ptr, align 8
-  %.7.i = getelementptr i8, ptr %arg.r, i64 288
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !82
+  %.7.i = getelementptr i8, ptr %arg.r, i64 304
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !78
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = mul nsw i64 %arg.level, 6
   %.12.i = getelementptr i8, ptr %arg.r, i64 112
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !82
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !78
   %.14.i = mul i64 %.13.i, %.13.i
   %.17.i = mul i64 %.14.i, %.10.i
   %.18.i = getelementptr double, ptr %.9.i, i64 %.17.i
@@ -3078,22 +3028,22 @@ B0.endif.endif.endif.endif:
   %.11.i14 = add nsw i64 %.10.i, 4
   %.17.i18 = mul i64 %.14.i, %.11.i14
   %.18.i19 = getelementptr double, ptr %.9.i, i64 %.17.i18
-  %.88 = getelementptr i8, ptr %arg.r, i64 664
+  %.88 = getelementptr i8, ptr %arg.r, i64 784
   %.89 = load i64, ptr %.88, align 8
   %.90 = inttoptr i64 %.89 to ptr
-  %.91 = getelementptr i8, ptr %arg.r, i64 672
+  %.91 = getelementptr i8, ptr %arg.r, i64 792
   %.92 = load i64, ptr %.91, align 8
   %.94 = getelementptr i8, ptr %arg.r, i64 104
   %.95 = load i64, ptr %.94, align 8
-  %.105 = getelementptr i8, ptr %arg.r, i64 680
+  %.105 = getelementptr i8, ptr %arg.r, i64 800
   %.106 = load i64, ptr %.105, align 8
   %.107 = inttoptr i64 %.106 to ptr
   %.8.i20 = getelementptr i8, ptr %arg.r, i64 56
-  %.9.i21 = load i64, ptr %.8.i20, align 8, !noalias !85
+  %.9.i21 = load i64, ptr %.8.i20, align 8, !noalias !81
   %.12.i24 = getelementptr double, ptr %arg.y, i64 %.95
   %.15.i = getelementptr double, ptr %.107, i64 %.95
   %.16.i = inttoptr i64 %.9.i21 to ptr
-  tail call void %.16.i(ptr %.18.i, ptr %.12.i24, ptr %.15.i), !noalias !85
+  tail call void %.16.i(ptr %.18.i, ptr %.12.i24, ptr %.15.i), !noalias !81
   %.134 = load i64, ptr %.105, align 8
   %.135 = inttoptr i64 %.134 to ptr
   %.136 = getelementptr i8, ptr %arg.r, i64 80
@@ -3105,8 +3055,8 @@ B0.endif.endif.endif.endif:
   ], !prof !8
 
 common.ret:
-  %excinfo.sink = phi ptr [ %excinfo, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3 ], [ %excinfo, %remainder.exit15 ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %excinfo, %remainder.exit8 ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %remainder.exit ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ]
-  %common.ret.op = phi i32 [ %.646, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %.612, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %.559, %B0.endif.endif.endif.endi...endif.3.endif ], [ %.531, %B0.endif.endif.endif.endi...endif.3 ], [ %.503, %remainder.exit15 ], [ %.398, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %.373, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %.345, %remainder.exit8 ], [ %.286, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %.258, %remainder.exit ], [ %.223, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %.198, %B0.endif.endif.endif.endif.endif.endif ], [ %.172, %B0.endif.endif.endif.endif.endif ], [ %.142, %B0.endif.endif.endif.endif ], [ 0, %B0.endif.endif.endif.endi...endif.4 ], [ 0, %B0.endif.endif.endif.endi...endif.4 ]
+  %excinfo.sink = phi ptr [ %excinfo, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.3 ], [ %excinfo, %B0.endif.endif.endif.endi...endif.2.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endi...endif.1.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif.endif ], [ %excinfo, %B0.endif.endif.endif.endif ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ], [ %retptr, %B0.endif.endif.endif.endi...endif.4 ]
+  %common.ret.op = phi i32 [ %.646, %B0.endif.endif.endif.endi...endif.4.if.if ], [ %.612, %B0.endif.endif.endif.endi...endif.3.endif.endif.endif ], [ %.559, %B0.endif.endif.endif.endi...endif.3.endif ], [ %.531, %B0.endif.endif.endif.endi...endif.3 ], [ %.503, %B0.endif.endif.endif.endi...endif.2.endif.endif.endif ], [ %.398, %B0.endif.endif.endif.endi...endif.1.endif.endif.endif ], [ %.373, %B0.endif.endif.endif.endi...endif.1.endif.endif ], [ %.345, %B0.endif.endif.endif.endi...endif.1.endif ], [ %.286, %B0.endif.endif.endif.endif.endif.endif.endif.endif.endif ], [ %.258, %B0.endif.endif.endif.endif.endif.endif.endif.endif ], [ %.223, %B0.endif.endif.endif.endif.endif.endif.endif ], [ %.198, %B0.endif.endif.endif.endif.endif.endif ], [ %.172, %B0.endif.endif.endif.endif.endif ], [ %.142, %B0.endif.endif.endif.endif ], [ 0, %B0.endif.endif.endif.endi...endif.4 ], [ 0, %B0.endif.endif.endif.endi...endif.4 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
@@ -3138,18 +3088,10 @@ B0.endif.endif.endif.endif.endif.endif.endif:
 
 B0.endif.endif.endif.endif.endif.endif.endif.endif:
   %.244 = fadd double %arg.t, %.193
-  %.245 = getelementptr i8, ptr %arg.r, i64 720
+  %.245 = getelementptr i8, ptr %arg.r, i64 840
   %.246 = load i64, ptr %.245, align 8
   %.247 = inttoptr i64 %.246 to ptr
-  %.10.i1 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.244, ptr %.90, ptr %.247) #0
-  %cond.i = icmp eq i32 %.10.i1, 0
-  br i1 %cond.i, label %remainder.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-remainder.exit:
+  %.248 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %.90, ptr %.247)
   %.252 = load i64, ptr %.245, align 8
   %.253 = inttoptr i64 %.252 to ptr
   %.258 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.254, ptr nonnull %excinfo.9, ptr %arg.y, double %.193, ptr %.253, ptr %0, i64 %.95)
@@ -3168,24 +3110,16 @@ B0.endif.endif.endif.endif.endif.endif.endif.endif.endif:
   ], !prof !8
 
 B0.endif.endif.endif.endi...endif.1.endif:
-  %.308 = getelementptr i8, ptr %arg.r, i64 728
+  %.308 = getelementptr i8, ptr %arg.r, i64 848
   %.309 = load i64, ptr %.308, align 8
   %.310 = inttoptr i64 %.309 to ptr
-  %.10.i4 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %.244, ptr %0, ptr %.310) #0
-  %cond.i5 = icmp eq i32 %.10.i4, 0
-  br i1 %cond.i5, label %remainder.exit8, label %entry.if.i6, !prof !24
-
-entry.if.i6:
-  tail call void @llvm.trap()
-  unreachable
-
-remainder.exit8:
-  %.9.i26 = load i64, ptr %.8.i20, align 8, !noalias !88
-  %.11.i28 = load i64, ptr %.94, align 8, !noalias !88
+  %.311 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %0, ptr %.310)
+  %.9.i26 = load i64, ptr %.8.i20, align 8, !noalias !84
+  %.11.i28 = load i64, ptr %.94, align 8, !noalias !84
   %.12.i29 = getelementptr double, ptr %.90, i64 %.11.i28
   %.15.i30 = getelementptr double, ptr %0, i64 %.11.i28
   %.16.i31 = inttoptr i64 %.9.i26 to ptr
-  tail call void %.16.i31(ptr %.18.i, ptr %.12.i29, ptr %.15.i30), !noalias !88
+  tail call void %.16.i31(ptr %.18.i, ptr %.12.i29, ptr %.15.i30), !noalias !84
   %.339 = load i64, ptr %.308, align 8
   %.340 = inttoptr i64 %.339 to ptr
   %.345 = call i32 @_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax(ptr nonnull %.341, ptr nonnull %excinfo.12, ptr %arg.y, double %arg.h, ptr %.340, ptr %0, i64 %.95)
@@ -3212,35 +3146,27 @@ B0.endif.endif.endif.endi...endif.1.endif.endif.endif:
 
 B0.endif.endif.endif.endi...endif.2.endif.endif.endif:
   %.418 = fadd double %arg.t, %arg.h
-  %.419 = getelementptr i8, ptr %arg.r, i64 736
+  %.419 = getelementptr i8, ptr %arg.r, i64 856
   %.420 = load i64, ptr %.419, align 8
   %.421 = inttoptr i64 %.420 to ptr
-  %.10.i11 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i9, ptr nonnull %excinfo.i10, ptr nonnull %arg.r, double %.418, ptr %0, ptr %.421) #0
-  %cond.i12 = icmp eq i32 %.10.i11, 0
-  br i1 %cond.i12, label %remainder.exit15, label %entry.if.i13, !prof !24
-
-entry.if.i13:
-  tail call void @llvm.trap()
-  unreachable
-
-remainder.exit15:
-  %.8.i33 = load i64, ptr %.7.i, align 8, !noalias !91
+  %.422 = tail call ptr @remainder(ptr nonnull %arg.r, double %.418, ptr %0, ptr %.421)
+  %.8.i33 = load i64, ptr %.7.i, align 8, !noalias !87
   %.9.i34 = inttoptr i64 %.8.i33 to ptr
   %.11.i36 = add nsw i64 %.10.i, 2
-  %.13.i38 = load i64, ptr %.12.i, align 8, !noalias !91
+  %.13.i38 = load i64, ptr %.12.i, align 8, !noalias !87
   %.14.i39 = mul nsw i64 %.13.i38, %.11.i36
   %.17.i40 = mul nsw i64 %.14.i39, %.13.i38
   %.18.i41 = getelementptr double, ptr %.9.i34, i64 %.17.i40
-  %.9.i43 = load i64, ptr %.8.i20, align 8, !noalias !94
-  %.11.i45 = load i64, ptr %.94, align 8, !noalias !94
+  %.9.i43 = load i64, ptr %.8.i20, align 8, !noalias !90
+  %.11.i45 = load i64, ptr %.94, align 8, !noalias !90
   %.12.i46 = getelementptr double, ptr %arg.y, i64 %.11.i45
   %.15.i47 = getelementptr double, ptr %arg.out, i64 %.11.i45
   %.16.i48 = inttoptr i64 %.9.i43 to ptr
-  tail call void %.16.i48(ptr %.18.i41, ptr %.12.i46, ptr %.15.i47), !noalias !94
-  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !97
+  tail call void %.16.i48(ptr %.18.i41, ptr %.12.i46, ptr %.15.i47), !noalias !90
+  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !93
   %.9.i51 = inttoptr i64 %.8.i50 to ptr
   %.11.i53 = add nsw i64 %.10.i, 3
-  %.13.i55 = load i64, ptr %.12.i, align 8, !noalias !97
+  %.13.i55 = load i64, ptr %.12.i, align 8, !noalias !93
   %.14.i56 = mul nsw i64 %.13.i55, %.11.i53
   %.17.i57 = mul nsw i64 %.14.i56, %.13.i55
   %.18.i58 = getelementptr double, ptr %.9.i51, i64 %.17.i57
@@ -3269,10 +3195,10 @@ B0.endif.endif.endif.endi...endif.3.endif:
   ], !prof !8
 
 B0.endif.endif.endif.endi...endif.3.endif.endif.endif:
-  %.8.i60 = load i64, ptr %.7.i, align 8, !noalias !100
+  %.8.i60 = load i64, ptr %.7.i, align 8, !noalias !96
   %.9.i61 = inttoptr i64 %.8.i60 to ptr
   %.11.i63 = add nsw i64 %.10.i, 5
-  %.13.i65 = load i64, ptr %.12.i, align 8, !noalias !100
+  %.13.i65 = load i64, ptr %.12.i, align 8, !noalias !96
   %.14.i66 = mul nsw i64 %.13.i65, %.11.i63
   %.17.i67 = mul nsw i64 %.14.i66, %.13.i65
   %.18.i68 = getelementptr double, ptr %.9.i61, i64 %.17.i67
@@ -3350,12 +3276,12 @@ B134.epil:
   %scevgep54 = getelementptr i8, ptr %lsr.iv53, i64 8
   %lsr.iv.next57 = add nsw i64 %lsr.iv56, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next57, 0
-  br i1 %epil.iter.cmp.not, label %B44.loopexit, label %B134.epil, !llvm.loop !103
+  br i1 %epil.iter.cmp.not, label %B44.loopexit, label %B134.epil, !llvm.loop !99
 
 B44.loopexit:
   %lsr.iv.next = add i64 %lsr.iv, 8
   %exitcond99.not = icmp eq i64 %.116, %.21
-  br i1 %exitcond99.not, label %B244, label %B46.endif, !llvm.loop !104
+  br i1 %exitcond99.not, label %B244, label %B46.endif, !llvm.loop !100
 
 B134:
   %.2468183 = phi i64 [ 0, %B134.preheader.new ], [ %.253.7, %B134 ]
@@ -3539,16 +3465,6 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.guard, double %arg.t, double %arg.ta, double %arg.tb, double %arg.fb) local_unnamed_addr {
 B0:
-  %.6.i13 = alloca ptr, align 8
-  %excinfo.i14 = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i9 = alloca ptr, align 8
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
-  %.9.i1 = alloca ptr, align 8
-  %excinfo.i2 = alloca ptr, align 8
-  %.9.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.98 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.133 = alloca ptr, align 8
@@ -3557,16 +3473,16 @@ B0:
   %excinfo.5 = alloca ptr, align 8
   %.25 = getelementptr i8, ptr %arg.r, i64 128
   %.26 = load i64, ptr %.25, align 8
-  %.38 = getelementptr i8, ptr %arg.r, i64 688
+  %.38 = getelementptr i8, ptr %arg.r, i64 808
   %.39 = load i64, ptr %.38, align 8
   %.40 = inttoptr i64 %.39 to ptr
-  %.42 = getelementptr i8, ptr %arg.r, i64 744
+  %.42 = getelementptr i8, ptr %arg.r, i64 864
   %.43 = load i64, ptr %.42, align 8
-  %.46 = getelementptr i8, ptr %arg.r, i64 696
+  %.46 = getelementptr i8, ptr %arg.r, i64 816
   %.47 = load i64, ptr %.46, align 8
-  %.50 = getelementptr i8, ptr %arg.r, i64 632
+  %.50 = getelementptr i8, ptr %arg.r, i64 752
   %.51 = load i64, ptr %.50, align 8
-  %.91 = getelementptr i8, ptr %arg.r, i64 648
+  %.91 = getelementptr i8, ptr %arg.r, i64 768
   %.92 = load i64, ptr %.91, align 8
   %.93 = inttoptr i64 %.92 to ptr
   %.95 = getelementptr i8, ptr %arg.r, i64 80
@@ -3598,15 +3514,7 @@ B320:
 
 B334:
   %.372 = fsub double %.327, %now.2.088
-  %.13.i = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9.i, ptr nonnull %excinfo.i, ptr %arg.r, i64 %.2778184, double %now.2.088, double %.372, ptr %.40, ptr readonly %0, ptr %2) #0
-  %cond.i = icmp eq i32 %.13.i, 0
-  br i1 %cond.i, label %exponential.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-exponential.exit:
+  %.379 = tail call ptr @exponential(ptr %arg.r, i64 %.2778184, double %now.2.088, double %.372, ptr %.40, ptr %0, ptr %2)
   br label %B540
 
 B540:
@@ -3618,10 +3526,10 @@ B540:
   ], !prof !8
 
 B631:
-  %tb.3.1 = phi double [ %tb.2.086, %B320 ], [ %tb.2.086, %remainder.exit ], [ %.327, %watch.exit ]
-  %fb.3.1 = phi double [ %fb.2.087, %B320 ], [ %fb.2.087, %remainder.exit ], [ %.428, %watch.exit ]
-  %now.3.1 = phi double [ %now.2.088, %B320 ], [ %.327, %remainder.exit ], [ %now.2.088, %watch.exit ]
-  %count.3.1 = phi i64 [ %count.2.089, %B320 ], [ %.318, %remainder.exit ], [ %count.2.089, %watch.exit ]
+  %tb.3.1 = phi double [ %tb.2.086, %B320 ], [ %tb.2.086, %B540.endif ], [ %.327, %B394.endif ]
+  %fb.3.1 = phi double [ %fb.2.087, %B320 ], [ %fb.2.087, %B540.endif ], [ %.428, %B394.endif ]
+  %now.3.1 = phi double [ %now.2.088, %B320 ], [ %.327, %B540.endif ], [ %now.2.088, %B394.endif ]
+  %count.3.1 = phi i64 [ %count.2.089, %B320 ], [ %.318, %B540.endif ], [ %count.2.089, %B394.endif ]
   %lsr.iv.next = add i64 %lsr.iv, -1
   %.284 = add nuw i64 %.2778184, 1
   %exitcond.not = icmp eq i64 %lsr.iv, 0
@@ -3629,7 +3537,7 @@ B631:
 
 B0.endif:
   %0 = inttoptr i64 %.43 to ptr
-  %.126 = getelementptr i8, ptr %arg.r, i64 704
+  %.126 = getelementptr i8, ptr %arg.r, i64 824
   %.127 = load i64, ptr %.126, align 8
   %.128 = inttoptr i64 %.127 to ptr
   %.130 = getelementptr i8, ptr %arg.r, i64 120
@@ -3641,7 +3549,7 @@ B0.endif:
   ], !prof !8
 
 common.ret:
-  %common.ret.op = phi i32 [ %.102, %B0.if.if ], [ %.137, %B0.endif.if.if ], [ 1, %B0.endif.endif.if.if ], [ 0, %flow.exit ], [ %.496, %B540.if.if ]
+  %common.ret.op = phi i32 [ %.102, %B0.if.if ], [ %.137, %B0.endif.if.if ], [ 1, %B0.endif.endif.if.if ], [ 0, %B630.endif ], [ %.496, %B540.if.if ]
   ret i32 %common.ret.op
 
 B0.if.if:
@@ -3649,7 +3557,7 @@ B0.if.if:
   br label %common.ret
 
 B0.endif.endif:
-  %.158 = getelementptr i8, ptr %arg.r, i64 232
+  %.158 = getelementptr i8, ptr %arg.r, i64 248
   %.160 = load double, ptr %.158, align 8
   %.162 = add i64 %.26, -1
   %.16.i = icmp slt i64 %.162, 0
@@ -3696,7 +3604,7 @@ B334.thread.i:
 
 B338.i:
   %.168.i = fcmp oeq double %spec.select.i, 0.000000e+00
-  br i1 %.168.i, label %B0.endif.endif.if.if, label %B630.endif, !prof !106
+  br i1 %.168.i, label %B0.endif.endif.if.if, label %B630.endif, !prof !102
 
 B0.endif.if.if:
   store ptr null, ptr %excinfo, align 8
@@ -3718,68 +3626,21 @@ B262.lr.ph:
   %2 = inttoptr i64 %.47 to ptr
   %3 = inttoptr i64 %.51 to ptr
   %sunkaddr15 = getelementptr i8, ptr %arg.r, i64 40
-  %sunkaddr16 = getelementptr i8, ptr %arg.r, i64 256
-  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 536
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
+  %sunkaddr16 = getelementptr i8, ptr %arg.r, i64 272
+  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 656
   br label %B262
 
 B394.endif:
   %.37267 = fsub double %.327, %now.2.088
-  %.13.i3 = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9.i1, ptr nonnull %excinfo.i2, ptr %arg.r, i64 %.2778184, double %now.2.088, double %.37267, ptr %.40, ptr readonly %0, ptr %2) #0
-  %cond.i4 = icmp eq i32 %.13.i3, 0
-  br i1 %cond.i4, label %exponential.exit7, label %entry.if.i5, !prof !24
-
-entry.if.i5:
-  tail call void @llvm.trap()
-  unreachable
-
-exponential.exit7:
-  %.8.i = load i64, ptr %sunkaddr15, align 8, !noalias !107
-  %.10.i = load i64, ptr %sunkaddr16, align 8, !noalias !107
+  %.37968 = tail call ptr @exponential(ptr %arg.r, i64 %.2778184, double %now.2.088, double %.37267, ptr %.40, ptr %0, ptr %2)
+  %.8.i = load i64, ptr %sunkaddr15, align 8, !noalias !103
+  %.10.i = load i64, ptr %sunkaddr16, align 8, !noalias !103
   %.11.i = inttoptr i64 %.10.i to ptr
   %.12.i = inttoptr i64 %.8.i to ptr
-  tail call void %.12.i(ptr %.11.i, ptr %2, ptr %3), !noalias !107
+  tail call void %.12.i(ptr %.11.i, ptr %2, ptr %3), !noalias !103
   %.416 = load i64, ptr %sunkaddr17, align 8
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !110
-  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !110
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %.327, ptr %.16.i.i, align 8, !noalias !110
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !110
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !110
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !110
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %3, ptr %.33.i.i, i64 %.35.i.i), !noalias !110
-  switch i32 %.40.i.i, label %entry.if.i8 [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i8:
-  call void @llvm.trap()
-  unreachable
-
-watch.exit:
   %.417 = inttoptr i64 %.416 to ptr
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !110
-  %.65.i.i = load i64, ptr %sunkaddr16, align 8, !noalias !110
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !110
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.417) #0, !noalias !110
+  %.421 = tail call ptr @watch(ptr %arg.r, double %.327, ptr %3, ptr %.417)
   %.424 = load i64, ptr %sunkaddr17, align 8
   %.425 = inttoptr i64 %.424 to ptr
   %.427 = getelementptr double, ptr %.425, i64 %arg.guard
@@ -3788,15 +3649,7 @@ watch.exit:
   br i1 %.429, label %B540, label %B631
 
 B540.endif:
-  %.10.i10 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %.327, ptr %.40, ptr %0) #0
-  %cond.i11 = icmp eq i32 %.10.i10, 0
-  br i1 %cond.i11, label %remainder.exit, label %entry.if.i12, !prof !24
-
-entry.if.i12:
-  tail call void @llvm.trap()
-  unreachable
-
-remainder.exit:
+  %.519 = tail call ptr @remainder(ptr nonnull %arg.r, double %.327, ptr %.40, ptr %0)
   br label %B631
 
 B540.if.if:
@@ -3809,29 +3662,21 @@ B630.endif:
   %now.2.0.lcssa = phi double [ %arg.t, %B0.endif.endif.endif.endif ], [ %arg.t, %B338.i ], [ %arg.t, %B334.thread.i ], [ %now.3.1, %B631 ]
   %4 = inttoptr i64 %.51 to ptr
   %.7.i1 = getelementptr i8, ptr %arg.r, i64 40
-  %.8.i2 = load i64, ptr %.7.i1, align 8, !noalias !114
-  %.9.i3 = getelementptr i8, ptr %arg.r, i64 256
-  %.10.i4 = load i64, ptr %.9.i3, align 8, !noalias !114
+  %.8.i2 = load i64, ptr %.7.i1, align 8, !noalias !106
+  %.9.i3 = getelementptr i8, ptr %arg.r, i64 272
+  %.10.i4 = load i64, ptr %.9.i3, align 8, !noalias !106
   %.11.i5 = inttoptr i64 %.10.i4 to ptr
   %.12.i6 = inttoptr i64 %.8.i2 to ptr
-  tail call void %.12.i6(ptr %.11.i5, ptr %.40, ptr %4), !noalias !114
-  %.572 = getelementptr i8, ptr %arg.r, i64 640
+  tail call void %.12.i6(ptr %.11.i5, ptr %.40, ptr %4), !noalias !106
+  %.572 = getelementptr i8, ptr %arg.r, i64 760
   %.573 = load i64, ptr %.572, align 8
   %.574 = inttoptr i64 %.573 to ptr
-  %.10.i15 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i13, ptr nonnull %excinfo.i14, ptr %arg.r, double %now.2.0.lcssa, ptr readonly %4, ptr %.574) #0
-  %cond.i16 = icmp eq i32 %.10.i15, 0
-  br i1 %cond.i16, label %flow.exit, label %entry.if.i17, !prof !24
-
-entry.if.i17:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit:
-  %.583 = getelementptr i8, ptr %arg.r, i64 456
+  %.578 = tail call ptr @flow(ptr %arg.r, double %now.2.0.lcssa, ptr %4, ptr %.574)
+  %.583 = getelementptr i8, ptr %arg.r, i64 504
   store double %now.2.0.lcssa, ptr %.583, align 8
-  %.590 = getelementptr i8, ptr %arg.r, i64 464
+  %.590 = getelementptr i8, ptr %arg.r, i64 512
   store double %tb.2.0.lcssa, ptr %.590, align 8
-  %.597 = getelementptr i8, ptr %arg.r, i64 472
+  %.597 = getelementptr i8, ptr %arg.r, i64 520
   store double %fb.2.0.lcssa, ptr %.597, align 8
   store ptr null, ptr %retptr, align 8
   br label %common.ret
@@ -3862,14 +3707,6 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t0, double %arg.s) local_unnamed_addr #0 {
 B0:
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
-  %.8.i8 = alloca ptr, align 8
-  %excinfo.i9 = alloca ptr, align 8
-  %.8.i2 = alloca ptr, align 8
-  %excinfo.i3 = alloca ptr, align 8
-  %.8.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.14 = getelementptr i8, ptr %arg.r, i64 144
   %.15 = load i64, ptr %.14, align 8
   switch i64 %.15, label %B70.i4 [
@@ -3878,113 +3715,49 @@ B0:
   ]
 
 B36:
-  %.12.i = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 -1, double %arg.t0, double %arg.s, double %arg.s, double 0.000000e+00) #0
-  %cond.i = icmp eq i32 %.12.i, 0
-  br i1 %cond.i, label %halve.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-halve.exit:
-  %.21.i = load i64, ptr %.14, align 8, !noalias !117
+  %.22 = tail call ptr @halve(ptr nonnull %arg.r, i64 -1, double %arg.t0, double %arg.s, double %arg.s, double 0.000000e+00)
+  %.21.i = load i64, ptr %.14, align 8, !noalias !109
   %.22.i = icmp eq i64 %.21.i, 2
   br i1 %.22.i, label %common.ret, label %B70.i
 
 B70.i:
-  %.35 = getelementptr i8, ptr %arg.r, i64 640
+  %.35 = getelementptr i8, ptr %arg.r, i64 760
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
-  %.31 = getelementptr i8, ptr %arg.r, i64 632
+  %.31 = getelementptr i8, ptr %arg.r, i64 752
   %.32 = load i64, ptr %.31, align 8
   %.33 = inttoptr i64 %.32 to ptr
-  %.27 = getelementptr i8, ptr %arg.r, i64 456
+  %.27 = getelementptr i8, ptr %arg.r, i64 504
   %.29 = load double, ptr %.27, align 8
   %.62.i = fsub double %arg.s, %.29
-  %.64.i = getelementptr i8, ptr %arg.r, i64 616
-  %.65.i = load i64, ptr %.64.i, align 8, !noalias !117
+  %.64.i = getelementptr i8, ptr %arg.r, i64 736
+  %.65.i = load i64, ptr %.64.i, align 8, !noalias !109
   %.66.i = inttoptr i64 %.65.i to ptr
-  %.12.i4 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %.29, ptr %.33, ptr readonly %.37, double %.62.i, ptr %.66.i) #0, !noalias !117
-  %cond.i5 = icmp eq i32 %.12.i4, 0
-  br i1 %cond.i5, label %classical.exit, label %entry.if.i6, !prof !24
-
-entry.if.i6:
-  tail call void @llvm.trap(), !noalias !117
-  unreachable
-
-classical.exit:
+  %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %.29, ptr %.33, ptr %.37, double %.62.i, ptr %.66.i), !noalias !109
   br label %common.ret
 
 B70.i4:
-  %.78 = getelementptr i8, ptr %arg.r, i64 552
+  %.78 = getelementptr i8, ptr %arg.r, i64 672
   %.79 = load i64, ptr %.78, align 8
   %.80 = inttoptr i64 %.79 to ptr
-  %.74 = getelementptr i8, ptr %arg.r, i64 544
+  %.74 = getelementptr i8, ptr %arg.r, i64 664
   %.75 = load i64, ptr %.74, align 8
   %.76 = inttoptr i64 %.75 to ptr
   %.62.i5 = fsub double %arg.s, %arg.t0
-  %.64.i6 = getelementptr i8, ptr %arg.r, i64 616
-  %.65.i7 = load i64, ptr %.64.i6, align 8, !noalias !120
+  %.64.i6 = getelementptr i8, ptr %arg.r, i64 736
+  %.65.i7 = load i64, ptr %.64.i6, align 8, !noalias !112
   %.66.i8 = inttoptr i64 %.65.i7 to ptr
-  %.12.i10 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i8, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %arg.t0, ptr %.76, ptr readonly %.80, double %.62.i5, ptr %.66.i8) #0, !noalias !120
-  %cond.i11 = icmp eq i32 %.12.i10, 0
-  br i1 %cond.i11, label %classical.exit14, label %entry.if.i12, !prof !24
-
-entry.if.i12:
-  tail call void @llvm.trap(), !noalias !120
-  unreachable
-
-classical.exit14:
+  %.71.i9 = tail call ptr @classical(ptr nonnull %arg.r, double %arg.t0, ptr %.76, ptr %.80, double %.62.i5, ptr %.66.i8), !noalias !112
   br label %common.ret
 
 common.ret:
-  %.80.i10 = getelementptr i8, ptr %arg.r, i64 616
-  %.81.i11 = load i64, ptr %.80.i10, align 8, !noalias !123
+  %.80.i10 = getelementptr i8, ptr %arg.r, i64 736
+  %.81.i11 = load i64, ptr %.80.i10, align 8, !noalias !115
   %.82.i12 = inttoptr i64 %.81.i11 to ptr
-  %.84.i13 = getelementptr i8, ptr %arg.r, i64 536
-  %.85.i14 = load i64, ptr %.84.i13, align 8, !noalias !123
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !124
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !124
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %arg.s, ptr %.16.i.i, align 8, !noalias !124
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !124
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !124
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !124
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.82.i12, ptr %.33.i.i, i64 %.35.i.i), !noalias !124
-  switch i32 %.40.i.i, label %entry.if.i15 [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i15:
-  call void @llvm.trap(), !noalias !123
-  unreachable
-
-watch.exit:
+  %.84.i13 = getelementptr i8, ptr %arg.r, i64 656
+  %.85.i14 = load i64, ptr %.84.i13, align 8, !noalias !115
   %.86.i15 = inttoptr i64 %.85.i14 to ptr
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !124
-  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
-  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !124
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !124
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.86.i15) #0, !noalias !124
+  %.89.i16 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.s, ptr %.82.i12, ptr %.86.i15), !noalias !115
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
@@ -4000,30 +3773,22 @@ entry:
 
 define i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.guard, double %arg.t0, double %arg.ta, double %arg.tb) local_unnamed_addr {
 B0:
-  %.36.i.i9 = alloca ptr, align 8
-  %excinfo.1.i.i10 = alloca ptr, align 8
-  %.8.i3 = alloca ptr, align 8
-  %excinfo.i4 = alloca ptr, align 8
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
-  %.8.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.241 = alloca double, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.28 = getelementptr i8, ptr %arg.r, i64 520
+  %.28 = getelementptr i8, ptr %arg.r, i64 640
   %.29 = load i64, ptr %.28, align 8
   %.30 = inttoptr i64 %.29 to ptr
   %.32 = getelementptr double, ptr %.30, i64 %arg.guard
   %.33 = load double, ptr %.32, align 8
-  %.35 = getelementptr i8, ptr %arg.r, i64 528
+  %.35 = getelementptr i8, ptr %arg.r, i64 648
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
   %.39 = getelementptr double, ptr %.37, i64 %arg.guard
   %.40 = load double, ptr %.39, align 8
-  %.56 = getelementptr i8, ptr %arg.r, i64 544
+  %.56 = getelementptr i8, ptr %arg.r, i64 664
   %.57 = load i64, ptr %.56, align 8
   %.58 = inttoptr i64 %.57 to ptr
-  %.60 = getelementptr i8, ptr %arg.r, i64 552
+  %.60 = getelementptr i8, ptr %arg.r, i64 672
   %.61 = load i64, ptr %.60, align 8
   %.74 = getelementptr i8, ptr %arg.r, i64 144
   %.75 = load i64, ptr %.74, align 8
@@ -4031,74 +3796,26 @@ B0:
   br i1 %.76, label %B120, label %B324
 
 B120:
-  %.12.i = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 %arg.guard, double %arg.t0, double %arg.ta, double %arg.tb, double %.40) #0
-  %cond.i = icmp eq i32 %.12.i, 0
-  br i1 %cond.i, label %halve.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-halve.exit:
-  %.100 = getelementptr i8, ptr %arg.r, i64 456
+  %.92 = tail call ptr @halve(ptr nonnull %arg.r, i64 %arg.guard, double %arg.t0, double %arg.ta, double %arg.tb, double %.40)
+  %.100 = getelementptr i8, ptr %arg.r, i64 504
   %.102 = load double, ptr %.100, align 8
-  %.104 = getelementptr i8, ptr %arg.r, i64 464
+  %.104 = getelementptr i8, ptr %arg.r, i64 512
   %.106 = load double, ptr %.104, align 8
-  %.108 = getelementptr i8, ptr %arg.r, i64 472
+  %.108 = getelementptr i8, ptr %arg.r, i64 520
   %.110 = load double, ptr %.108, align 8
-  %.112 = getelementptr i8, ptr %arg.r, i64 632
+  %.112 = getelementptr i8, ptr %arg.r, i64 752
   %.113 = load i64, ptr %.112, align 8
   %.114 = inttoptr i64 %.113 to ptr
-  %.116 = getelementptr i8, ptr %arg.r, i64 640
+  %.116 = getelementptr i8, ptr %arg.r, i64 760
   %.117 = load i64, ptr %.116, align 8
   %.161 = fcmp ogt double %.102, %arg.ta
   br i1 %.161, label %B248, label %B324
 
 B248:
-  %.187 = getelementptr i8, ptr %arg.r, i64 536
+  %.187 = getelementptr i8, ptr %arg.r, i64 656
   %.188 = load i64, ptr %.187, align 8
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !128
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !128
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %.102, ptr %.16.i.i, align 8, !noalias !128
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !128
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !128
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !128
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.114, ptr %.33.i.i, i64 %.35.i.i), !noalias !128
-  switch i32 %.40.i.i, label %entry.if.i2 [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i2:
-  call void @llvm.trap()
-  unreachable
-
-watch.exit:
   %.189 = inttoptr i64 %.188 to ptr
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !128
-  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
-  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !128
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !128
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.189) #0, !noalias !128
+  %.193 = tail call ptr @watch(ptr nonnull %arg.r, double %.102, ptr %.114, ptr %.189)
   %.198 = load i64, ptr %.187, align 8
   %.199 = inttoptr i64 %.198 to ptr
   %.201 = getelementptr double, ptr %.199, i64 %arg.guard
@@ -4106,13 +3823,13 @@ watch.exit:
   br label %B324
 
 B324:
-  %ta.2.0 = phi double [ %.102, %watch.exit ], [ %arg.ta, %halve.exit ], [ %arg.ta, %B0 ]
-  %tb.2.0 = phi double [ %.106, %watch.exit ], [ %.106, %halve.exit ], [ %arg.tb, %B0 ]
-  %fb.2.0 = phi double [ %.110, %watch.exit ], [ %.110, %halve.exit ], [ %.40, %B0 ]
-  %fa.2.0 = phi double [ %.202, %watch.exit ], [ %.33, %halve.exit ], [ %.33, %B0 ]
-  %dx.2.0.in = phi i64 [ %.117, %watch.exit ], [ %.117, %halve.exit ], [ %.61, %B0 ]
-  %x.2.0 = phi ptr [ %.114, %watch.exit ], [ %.114, %halve.exit ], [ %.58, %B0 ]
-  %base.2.0 = phi double [ %.102, %watch.exit ], [ %.102, %halve.exit ], [ %arg.t0, %B0 ]
+  %ta.2.0 = phi double [ %.102, %B248 ], [ %arg.ta, %B120 ], [ %arg.ta, %B0 ]
+  %tb.2.0 = phi double [ %.106, %B248 ], [ %.106, %B120 ], [ %arg.tb, %B0 ]
+  %fb.2.0 = phi double [ %.110, %B248 ], [ %.110, %B120 ], [ %.40, %B0 ]
+  %fa.2.0 = phi double [ %.202, %B248 ], [ %.33, %B120 ], [ %.33, %B0 ]
+  %dx.2.0.in = phi i64 [ %.117, %B248 ], [ %.117, %B120 ], [ %.61, %B0 ]
+  %x.2.0 = phi ptr [ %.114, %B248 ], [ %.114, %B120 ], [ %.58, %B0 ]
+  %base.2.0 = phi double [ %.102, %B248 ], [ %.102, %B120 ], [ %arg.t0, %B0 ]
   %dx.2.0 = inttoptr i64 %dx.2.0.in to ptr
   store double 0.000000e+00, ptr %.241, align 8
   %.245 = call i32 @_ZN18biped_adrc_kernels5brentB3v42B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd10float64_2a10float64_2adddd(ptr nonnull %.241, ptr nonnull %excinfo.1, ptr nonnull %arg.r, i64 %arg.guard, double %base.2.0, ptr %x.2.0, ptr %dx.2.0, double %ta.2.0, double %fa.2.0, double %tb.2.0, double %fb.2.0)
@@ -4121,24 +3838,16 @@ B324:
   br i1 %cond, label %B324.endif, label %B324.if.if, !prof !24
 
 B324.endif:
-  %.21.i = load i64, ptr %.74, align 8, !noalias !132
+  %.21.i = load i64, ptr %.74, align 8, !noalias !116
   %.22.i = icmp eq i64 %.21.i, 2
   br i1 %.22.i, label %B324.endif.endif, label %B70.i
 
 B70.i:
   %.62.i = fsub double %.255, %base.2.0
-  %.64.i = getelementptr i8, ptr %arg.r, i64 616
-  %.65.i = load i64, ptr %.64.i, align 8, !noalias !132
+  %.64.i = getelementptr i8, ptr %arg.r, i64 736
+  %.65.i = load i64, ptr %.64.i, align 8, !noalias !116
   %.66.i = inttoptr i64 %.65.i to ptr
-  %.12.i5 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i3, ptr nonnull %excinfo.i4, ptr nonnull %arg.r, double %base.2.0, ptr %x.2.0, ptr readonly %dx.2.0, double %.62.i, ptr %.66.i) #0, !noalias !132
-  %cond.i6 = icmp eq i32 %.12.i5, 0
-  br i1 %cond.i6, label %classical.exit, label %entry.if.i7, !prof !24
-
-entry.if.i7:
-  tail call void @llvm.trap(), !noalias !132
-  unreachable
-
-classical.exit:
+  %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %base.2.0, ptr %x.2.0, ptr %dx.2.0, double %.62.i, ptr %.66.i), !noalias !116
   br label %B324.endif.endif
 
 common.ret:
@@ -4149,90 +3858,40 @@ B324.if.if:
   br label %common.ret
 
 B324.endif.endif:
-  %.80.i = getelementptr i8, ptr %arg.r, i64 616
-  %.81.i = load i64, ptr %.80.i, align 8, !noalias !132
+  %.80.i = getelementptr i8, ptr %arg.r, i64 736
+  %.81.i = load i64, ptr %.80.i, align 8, !noalias !116
   %.82.i = inttoptr i64 %.81.i to ptr
-  %.84.i = getelementptr i8, ptr %arg.r, i64 536
-  %.85.i = load i64, ptr %.84.i, align 8, !noalias !132
-  %.8.i.i11 = getelementptr i8, ptr %arg.r, i64 344
-  %.10.i.i12 = load double, ptr %.8.i.i11, align 8, !noalias !135
-  %.11.i.i13 = getelementptr i8, ptr %arg.r, i64 432
-  %.13.i.i14 = load double, ptr %.11.i.i13, align 8, !noalias !135
-  %.14.i.i15 = getelementptr i8, ptr %arg.r, i64 488
-  %.15.i.i16 = load i64, ptr %.14.i.i15, align 8, !noalias !135
-  %.16.i.i17 = inttoptr i64 %.15.i.i16 to ptr
-  store double %.255, ptr %.16.i.i17, align 8, !noalias !135
-  %.20.i.i18 = load i64, ptr %.14.i.i15, align 8, !noalias !135
-  %.21.i.i19 = inttoptr i64 %.20.i.i18 to ptr
-  %.22.i.i20 = getelementptr i8, ptr %.21.i.i19, i64 8
-  store double %.10.i.i12, ptr %.22.i.i20, align 8, !noalias !135
-  %.25.i.i21 = load i64, ptr %.14.i.i15, align 8, !noalias !135
-  %.26.i.i22 = inttoptr i64 %.25.i.i21 to ptr
-  %.27.i.i23 = getelementptr i8, ptr %.26.i.i22, i64 16
-  store double %.13.i.i14, ptr %.27.i.i23, align 8, !noalias !135
-  %.31.i.i24 = load i64, ptr %.14.i.i15, align 8, !noalias !135
-  %.32.i.i25 = inttoptr i64 %.31.i.i24 to ptr
-  %.33.i.i26 = getelementptr i8, ptr %.32.i.i25, i64 24
-  %.34.i.i27 = getelementptr i8, ptr %arg.r, i64 72
-  %.35.i.i28 = load i64, ptr %.34.i.i27, align 8, !noalias !135
-  %.40.i.i29 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i9, ptr nonnull %excinfo.1.i.i10, ptr readonly %.82.i, ptr %.33.i.i26, i64 %.35.i.i28), !noalias !135
-  switch i32 %.40.i.i29, label %entry.if.i38 [
-    i32 -2, label %watch.exit39
-    i32 0, label %watch.exit39
-  ], !prof !8
-
-entry.if.i38:
-  call void @llvm.trap(), !noalias !132
-  unreachable
-
-watch.exit39:
+  %.84.i = getelementptr i8, ptr %arg.r, i64 656
+  %.85.i = load i64, ptr %.84.i, align 8, !noalias !116
   %.86.i = inttoptr i64 %.85.i to ptr
-  %.62.i.i30 = getelementptr i8, ptr %arg.r, i64 24
-  %.63.i.i31 = load i64, ptr %.62.i.i30, align 8, !noalias !135
-  %.64.i.i32 = getelementptr i8, ptr %arg.r, i64 256
-  %.65.i.i33 = load i64, ptr %.64.i.i32, align 8, !noalias !135
-  %.66.i.i34 = inttoptr i64 %.65.i.i33 to ptr
-  %.68.i.i35 = load i64, ptr %.14.i.i15, align 8, !noalias !135
-  %.69.i.i36 = inttoptr i64 %.68.i.i35 to ptr
-  %.70.i.i37 = inttoptr i64 %.63.i.i31 to ptr
-  call void %.70.i.i37(ptr %.66.i.i34, ptr %.69.i.i36, ptr %.86.i) #0, !noalias !135
+  %.89.i = tail call ptr @watch(ptr nonnull %arg.r, double %.255, ptr %.82.i, ptr %.86.i), !noalias !116
   store double %.255, ptr %retptr, align 8
   br label %common.ret
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels5brentB3v42B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd10float64_2a10float64_2adddd(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r, i64 %arg.guard, double %arg.base, ptr %arg.x, ptr %arg.dx, double %arg.ta, double %arg.fa, double %arg.tb, double %arg.fb) local_unnamed_addr {
 B92.lr.ph:
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
-  %.8.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.65 = fsub double %arg.tb, %arg.ta
   %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 144
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 616
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 536
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
-  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 736
+  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 656
   br label %B92
 
 B92:
-  %lsr.iv1 = phi i64 [ %lsr.iv.next2, %watch.exit ], [ 10002, %B92.lr.ph ]
-  %step.5.079 = phi double [ %step.6.1, %watch.exit ], [ %.65, %B92.lr.ph ]
-  %last.5.078 = phi double [ %last.6.1, %watch.exit ], [ %.65, %B92.lr.ph ]
-  %other.4.077 = phi double [ %other.5.1, %watch.exit ], [ %arg.ta, %B92.lr.ph ]
-  %f_other.4.076 = phi double [ %f_other.5.1, %watch.exit ], [ %arg.fa, %B92.lr.ph ]
-  %f_now.3.075 = phi double [ %.700, %watch.exit ], [ %arg.fb, %B92.lr.ph ]
-  %now.4.074 = phi double [ %now.5.1, %watch.exit ], [ %arg.tb, %B92.lr.ph ]
-  %f_before.3.073 = phi double [ %f_now.4.1, %watch.exit ], [ %arg.fa, %B92.lr.ph ]
-  %before.3.072 = phi double [ %now.6.1, %watch.exit ], [ %arg.ta, %B92.lr.ph ]
+  %lsr.iv1 = phi i64 [ %lsr.iv.next2, %B918.endif ], [ 10002, %B92.lr.ph ]
+  %step.5.079 = phi double [ %step.6.1, %B918.endif ], [ %.65, %B92.lr.ph ]
+  %last.5.078 = phi double [ %last.6.1, %B918.endif ], [ %.65, %B92.lr.ph ]
+  %other.4.077 = phi double [ %other.5.1, %B918.endif ], [ %arg.ta, %B92.lr.ph ]
+  %f_other.4.076 = phi double [ %f_other.5.1, %B918.endif ], [ %arg.fa, %B92.lr.ph ]
+  %f_now.3.075 = phi double [ %.700, %B918.endif ], [ %arg.fb, %B92.lr.ph ]
+  %now.4.074 = phi double [ %now.5.1, %B918.endif ], [ %arg.tb, %B92.lr.ph ]
+  %f_before.3.073 = phi double [ %f_now.4.1, %B918.endif ], [ %arg.fa, %B92.lr.ph ]
+  %before.3.072 = phi double [ %now.6.1, %B918.endif ], [ %arg.ta, %B92.lr.ph ]
   %or.cond = fcmp ueq double %f_now.3.075, 0.000000e+00
   br i1 %or.cond, label %common.ret, label %B126
 
 common.ret:
-  %now.5.1.lcssa.sink = phi double [ %now.6.1, %B264 ], [ %now.4.074, %B92 ], [ %now.6.1, %B360 ], [ %now.5.1, %watch.exit ]
+  %now.5.1.lcssa.sink = phi double [ %now.6.1, %B264 ], [ %now.4.074, %B92 ], [ %now.6.1, %B360 ], [ %now.5.1, %B918.endif ]
   store double %now.5.1.lcssa.sink, ptr %retptr, align 8
   ret i32 0
 
@@ -4337,65 +3996,23 @@ B678.endif:
   %"$phi912.2.2.2" = select i1 %.595, double %.347, double %.613
   %step.6.1.pn = select i1 %.579, double %step.6.1, double %"$phi912.2.2.2"
   %now.5.1 = fadd double %now.6.1, %step.6.1.pn
-  %.21.i = load i64, ptr %sunkaddr3, align 8, !noalias !139
+  %.21.i = load i64, ptr %sunkaddr3, align 8, !noalias !119
   %.22.i = icmp eq i64 %.21.i, 2
   br i1 %.22.i, label %B918.endif, label %B70.i
 
 B70.i:
   %.62.i = fsub double %now.5.1, %arg.base
-  %.65.i = load i64, ptr %sunkaddr, align 8, !noalias !139
+  %.65.i = load i64, ptr %sunkaddr, align 8, !noalias !119
   %.66.i = inttoptr i64 %.65.i to ptr
-  %.12.i1 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.base, ptr %arg.x, ptr readonly %arg.dx, double %.62.i, ptr %.66.i) #0, !noalias !139
-  %cond.i = icmp eq i32 %.12.i1, 0
-  br i1 %cond.i, label %classical.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap(), !noalias !139
-  unreachable
-
-classical.exit:
+  %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %arg.base, ptr %arg.x, ptr %arg.dx, double %.62.i, ptr %.66.i), !noalias !119
   br label %B918.endif
 
 B918.endif:
-  %.81.i = load i64, ptr %sunkaddr, align 8, !noalias !139
+  %.81.i = load i64, ptr %sunkaddr, align 8, !noalias !119
   %.82.i = inttoptr i64 %.81.i to ptr
-  %.85.i = load i64, ptr %sunkaddr5, align 8, !noalias !139
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !142
-  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !142
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %now.5.1, ptr %.16.i.i, align 8, !noalias !142
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !142
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !142
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !142
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.82.i, ptr %.33.i.i, i64 %.35.i.i), !noalias !142
-  switch i32 %.40.i.i, label %entry.if.i3 [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i3:
-  call void @llvm.trap(), !noalias !139
-  unreachable
-
-watch.exit:
+  %.85.i = load i64, ptr %sunkaddr5, align 8, !noalias !119
   %.86.i = inttoptr i64 %.85.i to ptr
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !142
-  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !142
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !142
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.86.i) #0, !noalias !142
+  %.89.i = tail call ptr @watch(ptr nonnull %arg.r, double %now.5.1, ptr %.82.i, ptr %.86.i), !noalias !119
   %last.6.1 = select i1 %.540, double %step.4.1, double %.351
   %.696 = load i64, ptr %sunkaddr5, align 8
   %.697 = inttoptr i64 %.696 to ptr
@@ -4447,10 +4064,10 @@ B0:
   %.16 = fmul double %.15, 5.000000e-01
   %.18 = fadd double %arg.t0, %.16
   %.9.i = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull poison, ptr %arg.r, double %arg.t0, double %.18) #0
-  %.24 = getelementptr i8, ptr %arg.r, i64 536
+  %.24 = getelementptr i8, ptr %arg.r, i64 656
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
-  %.28 = getelementptr i8, ptr %arg.r, i64 528
+  %.28 = getelementptr i8, ptr %arg.r, i64 648
   %.29 = load i64, ptr %.28, align 8
   %.30 = inttoptr i64 %.29 to ptr
   %.32 = getelementptr i8, ptr %arg.r, i64 136
@@ -4512,7 +4129,7 @@ B502:
   %"$phi502.0.2.0" = phi i64 [ %.348, %B372.endif.endif ], [ %.382, %B468 ]
   %.409 = load i64, ptr %.28, align 8
   %.410 = inttoptr i64 %.409 to ptr
-  %.412 = getelementptr i8, ptr %arg.r, i64 520
+  %.412 = getelementptr i8, ptr %arg.r, i64 640
   %.413 = load i64, ptr %.412, align 8
   %.414 = inttoptr i64 %.413 to ptr
   %.417 = load i64, ptr %.32, align 8
@@ -4524,7 +4141,7 @@ B502:
 
 B503:
   %exitcond.not = icmp eq i64 %.66, %.159
-  br i1 %exitcond.not, label %B372, label %B196, !llvm.loop !146
+  br i1 %exitcond.not, label %B372, label %B196, !llvm.loop !122
 
 B0.if.if:
   store ptr null, ptr %excinfo, align 8
@@ -4542,7 +4159,7 @@ B0.endif.endif.B372_crit_edge:
   br label %B372
 
 B196.lr.ph:
-  %.198 = getelementptr i8, ptr %arg.r, i64 520
+  %.198 = getelementptr i8, ptr %arg.r, i64 640
   %.190 = inttoptr i64 %.298.pre to ptr
   %.199 = load i64, ptr %.198, align 8
   %.200 = inttoptr i64 %.199 to ptr
@@ -4563,9 +4180,9 @@ B278.peel:
 
 _ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel:
   %sunkaddr19 = getelementptr i8, ptr %.190, i64 24
-  %.19.i.peel = load double, ptr %sunkaddr19, align 8, !noalias !148
-  %sunkaddr20 = getelementptr i8, ptr %arg.r, i64 224
-  %.23.i.peel = load double, ptr %sunkaddr20, align 8, !noalias !148
+  %.19.i.peel = load double, ptr %sunkaddr19, align 8, !noalias !124
+  %sunkaddr20 = getelementptr i8, ptr %arg.r, i64 240
+  %.23.i.peel = load double, ptr %sunkaddr20, align 8, !noalias !124
   %.26.i.peel = fcmp ule double %.19.i.peel, %.23.i.peel
   br i1 %.26.i.peel, label %B503.peel, label %B352
 
@@ -4610,22 +4227,18 @@ B502.if.if:
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels7crossedB3v48B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addd(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t0, double %arg.ta, double %arg.tb) local_unnamed_addr {
 B0.endif:
-  %.7.i1 = alloca double, align 8
-  %excinfo.i2 = alloca ptr, align 8
-  %.7.i = alloca double, align 8
-  %excinfo.i = alloca ptr, align 8
   %.26 = getelementptr i8, ptr %arg.r, i64 136
   %.27 = load i64, ptr %.26, align 8
   %.109138.not = icmp slt i64 %.27, 1
   br i1 %.109138.not, label %common.ret, label %B78.preheader
 
 B78.preheader:
-  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 520
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 528
-  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 616
+  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 736
   %sunkaddr69 = getelementptr i8, ptr %arg.r, i64 80
-  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 536
-  %sunkaddr71 = getelementptr i8, ptr %arg.r, i64 224
+  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 656
+  %sunkaddr71 = getelementptr i8, ptr %arg.r, i64 240
   br label %B78
 
 B78:
@@ -4650,17 +4263,7 @@ B118:
   br i1 %.184, label %B407, label %B156
 
 B156:
-  store double 0.000000e+00, ptr %.7.i, align 8
-  %.11.i = call i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr nonnull %.7.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 %.115135139, double %arg.t0, double %arg.ta, double %arg.tb) #0
-  %cond.i = icmp eq i32 %.11.i, 0
-  br i1 %cond.i, label %locate.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-locate.exit:
-  %.21.i = load double, ptr %.7.i, align 8
+  %.223 = tail call double @locate(ptr nonnull %arg.r, i64 %.115135139, double %arg.t0, double %arg.ta, double %arg.tb)
   %.234 = load i64, ptr %sunkaddr68, align 8
   %.238 = load i64, ptr %sunkaddr69, align 8
   %.9240.not.i = icmp slt i64 %.238, 1
@@ -4695,13 +4298,13 @@ vector.body.i:
   %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %12, %vector.body.i ]
   %sunkaddr50 = shl i64 %index.i, 3
   %sunkaddr51 = getelementptr i8, ptr %0, i64 %sunkaddr50
-  %wide.load.i = load <4 x double>, ptr %sunkaddr51, align 8, !noalias !151
+  %wide.load.i = load <4 x double>, ptr %sunkaddr51, align 8, !noalias !127
   %sunkaddr55 = getelementptr i8, ptr %sunkaddr51, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr55, align 8, !noalias !151
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr55, align 8, !noalias !127
   %sunkaddr59 = getelementptr i8, ptr %sunkaddr51, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr59, align 8, !noalias !151
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr59, align 8, !noalias !127
   %scevgep66 = getelementptr i8, ptr %sunkaddr51, i64 96
-  %wide.load7.i = load <4 x double>, ptr %scevgep66, align 8, !noalias !151
+  %wide.load7.i = load <4 x double>, ptr %scevgep66, align 8, !noalias !127
   %1 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
   %2 = fcmp one <4 x double> %1, splat (double 0x7FF0000000000000)
   %3 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
@@ -4716,7 +4319,7 @@ vector.body.i:
   %12 = and <4 x i1> %vec.phi4.i, %8
   %index.next.i = add nuw nsw i64 %index.i, 16
   %13 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %13, label %middle.block.i, label %vector.body.i, !llvm.loop !154
+  br i1 %13, label %middle.block.i, label %vector.body.i, !llvm.loop !130
 
 middle.block.i:
   %bin.rdx.i = and <4 x i1> %9, %10
@@ -4745,13 +4348,13 @@ vec.epilog.vector.body.i:
   %vec.phi13.i = phi <4 x i1> [ %17, %vec.epilog.ph.i ], [ %21, %vec.epilog.vector.body.i ]
   %18 = shl i64 %index12.i, 3
   %scevgep28.i = getelementptr i8, ptr %.pre-phi45, i64 %18
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !151
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !127
   %19 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
   %20 = fcmp one <4 x double> %19, splat (double 0x7FF0000000000000)
   %21 = and <4 x i1> %vec.phi13.i, %20
   %index.next15.i = add nuw i64 %index12.i, 4
   %22 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %22, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !155
+  br i1 %22, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !131
 
 vec.epilog.middle.block.i:
   %23 = bitcast <4 x i1> %21 to i4
@@ -4771,19 +4374,19 @@ B40.i:
   %.105.i = add nuw nsw i64 %.983941.i, 1
   %25 = shl i64 %.983941.i, 3
   %scevgep.i = getelementptr i8, ptr %.pre-phi, i64 %25
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !151
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !127
   %26 = tail call double @llvm.fabs.f64(double %.132.i)
   %27 = fcmp one double %26, 0x7FF0000000000000
   %.136.i = and i1 %good.2.043.i, %27
   %exitcond.not.i = icmp eq i64 %.238, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !156
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !132
 
 _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
   %.136.lcssa.i = phi i1 [ %24, %vec.epilog.middle.block.i ], [ %15, %middle.block.i ], [ %.136.i, %B40.i ]
   br i1 %.136.lcssa.i, label %B284, label %B250.endif
 
 B284:
-  %.332 = fcmp olt double %.21.i, %first.3.0143
+  %.332 = fcmp olt double %.223, %first.3.0143
   br i1 %.332, label %B296, label %B407
 
 B296:
@@ -4791,11 +4394,11 @@ B296:
   br i1 %.9.not.i, label %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit, label %B407
 
 _ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit:
-  %.16.i = load i64, ptr %sunkaddr70, align 8, !noalias !157
+  %.16.i = load i64, ptr %sunkaddr70, align 8, !noalias !133
   %.17.i = inttoptr i64 %.16.i to ptr
   %.18.i = getelementptr i8, ptr %.17.i, i64 24
-  %.19.i = load double, ptr %.18.i, align 8, !noalias !157
-  %.23.i = load double, ptr %sunkaddr71, align 8, !noalias !157
+  %.19.i = load double, ptr %.18.i, align 8, !noalias !133
+  %.23.i = load double, ptr %sunkaddr71, align 8, !noalias !133
   %.26.i = fcmp ule double %.19.i, %.23.i
   %cond.fr = freeze i1 %.26.i
   br i1 %cond.fr, label %B407, label %B407.thread
@@ -4814,29 +4417,19 @@ B356:
   br i1 %28, label %B406.endif, label %B368
 
 B368:
-  store double 0.000000e+00, ptr %.7.i1, align 8
-  %.11.i3 = call i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axddd(ptr nonnull %.7.i1, ptr nonnull %excinfo.i2, ptr nonnull %arg.r, i64 %first_guard.3.1.fr, double %arg.t0, double %arg.ta, double %arg.tb) #0
-  %cond.i4 = icmp eq i32 %.11.i3, 0
-  br i1 %cond.i4, label %locate.exit7, label %entry.if.i5, !prof !24
-
-entry.if.i5:
-  tail call void @llvm.trap()
-  unreachable
-
-locate.exit7:
-  %.21.i6 = load double, ptr %.7.i1, align 8
+  %.467 = tail call double @locate(ptr nonnull %arg.r, i64 %first_guard.3.1.fr, double %arg.t0, double %arg.ta, double %arg.tb)
   br label %B406.endif
 
 B407:
   %last.3.1 = phi i64 [ %last.2.0141, %B78 ], [ %last.2.0141, %B118 ], [ %.115135139, %B284 ], [ %.115135139, %B296 ], [ 0, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
   %first_guard.3.1 = phi i64 [ %first_guard.2.0142, %B78 ], [ %first_guard.2.0142, %B118 ], [ %first_guard.2.0142, %B284 ], [ %.115135139, %B296 ], [ %first_guard.2.0142, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
-  %first.4.1 = phi double [ %first.3.0143, %B78 ], [ %first.3.0143, %B118 ], [ %first.3.0143, %B284 ], [ %.21.i, %B296 ], [ %first.3.0143, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
+  %first.4.1 = phi double [ %first.3.0143, %B78 ], [ %first.3.0143, %B118 ], [ %first.3.0143, %B284 ], [ %.223, %B296 ], [ %first.3.0143, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit ]
   %first_guard.3.1.fr = freeze i64 %first_guard.3.1
   %exitcond.not = icmp eq i64 %.122, %.27
   br i1 %exitcond.not, label %B340, label %B78.backedge
 
 B78.backedge:
-  %first.3.0143.be = phi double [ %first.4.1, %B407 ], [ %.21.i, %B407.thread ]
+  %first.3.0143.be = phi double [ %first.4.1, %B407 ], [ %.223, %B407.thread ]
   %first_guard.2.0142.be = phi i64 [ %first_guard.3.1.fr, %B407 ], [ 0, %B407.thread ]
   %last.2.0141.be = phi i64 [ %last.3.1, %B407 ], [ 0, %B407.thread ]
   %.115135139.be = phi i64 [ %.122, %B407 ], [ 1, %B407.thread ]
@@ -4847,20 +4440,20 @@ B407.thread:
   br i1 %exitcond.not8, label %.thread, label %B78.backedge
 
 .thread:
-  %.48527 = getelementptr i8, ptr %arg.r, i64 448
-  store double %.21.i, ptr %.48527, align 8
+  %.48527 = getelementptr i8, ptr %arg.r, i64 496
+  store double %.223, ptr %.48527, align 8
   br label %30
 
 B250.endif:
-  %.8.i = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !160
+  %.8.i = getelementptr i8, ptr %arg.r, i64 472
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !136
   %.10.i = icmp eq i64 %.9.i, 0
   %spec.select.i = select i1 %.10.i, i64 4, i64 %.9.i
   br label %common.ret
 
 B406.endif:
-  %first.6.0 = phi double [ %.21.i6, %locate.exit7 ], [ %first.4.1, %B356 ]
-  %.485 = getelementptr i8, ptr %arg.r, i64 448
+  %first.6.0 = phi double [ %.467, %B368 ], [ %first.4.1, %B356 ]
+  %.485 = getelementptr i8, ptr %arg.r, i64 496
   store double %first.6.0, ptr %.485, align 8
   %switch.selectcmp.i = icmp eq i64 %first_guard.3.1.fr, 1
   %29 = select i1 %switch.selectcmp.i, i64 2, i64 3
@@ -4873,14 +4466,12 @@ B406.endif:
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels7overdueB3v45B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t0) local_unnamed_addr {
 B0:
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
   %.22 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.12 = getelementptr i8, ptr %arg.r, i64 544
+  %.12 = getelementptr i8, ptr %arg.r, i64 664
   %.13 = load i64, ptr %.12, align 8
   %.14 = inttoptr i64 %.13 to ptr
-  %.16 = getelementptr i8, ptr %arg.r, i64 616
+  %.16 = getelementptr i8, ptr %arg.r, i64 736
   %.17 = load i64, ptr %.16, align 8
   %.18 = inttoptr i64 %.17 to ptr
   %.20 = getelementptr i8, ptr %arg.r, i64 80
@@ -4917,7 +4508,7 @@ B420:
   %lsr.iv.next = add nuw i64 %lsr.iv, 1
   %1 = add i64 %lsr.iv, 2
   %exitcond.not = icmp eq i64 %.61, %1
-  br i1 %exitcond.not, label %B422, label %B166, !llvm.loop !163
+  br i1 %exitcond.not, label %B422, label %B166, !llvm.loop !139
 
 common.ret:
   %common.ret.op = phi i32 [ 0, %B422 ], [ %.26, %B0.if.if ], [ 0, %B370.endif ]
@@ -4934,67 +4525,27 @@ B0.if.if:
 B0.endif.endif:
   %.50 = load i64, ptr %.16, align 8
   %.51 = inttoptr i64 %.50 to ptr
-  %.53 = getelementptr i8, ptr %arg.r, i64 536
+  %.53 = getelementptr i8, ptr %arg.r, i64 656
   %.54 = load i64, ptr %.53, align 8
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !164
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !164
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %arg.t0, ptr %.16.i.i, align 8, !noalias !164
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !164
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !164
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !164
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.51, ptr %.33.i.i, i64 %.35.i.i), !noalias !164
-  switch i32 %.40.i.i, label %entry.if.i [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i:
-  call void @llvm.trap()
-  unreachable
-
-watch.exit:
   %.55 = inttoptr i64 %.54 to ptr
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !164
-  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
-  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !164
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !164
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.55) #0, !noalias !164
+  %.58 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t0, ptr %.51, ptr %.55)
   %.60 = getelementptr i8, ptr %arg.r, i64 136
   %.61 = load i64, ptr %.60, align 8
   %.14185.not = icmp slt i64 %.61, 1
   br i1 %.14185.not, label %B422, label %B166.lr.ph
 
 B166.lr.ph:
-  %.201 = getelementptr i8, ptr %arg.r, i64 368
+  %.201 = getelementptr i8, ptr %arg.r, i64 384
   %.202 = load i64, ptr %.201, align 8
   %.204.not.peel = icmp eq i64 %.202, 0
   br i1 %.204.not.peel, label %B420.peel, label %B244.peel
 
 B244.peel:
-  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 520
+  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 640
   %.184.peel = load i64, ptr %sunkaddr23, align 8
   %.185.peel = inttoptr i64 %.184.peel to ptr
   %.188.peel = load double, ptr %.185.peel, align 8
-  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 528
+  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 648
   %.191.peel = load i64, ptr %sunkaddr24, align 8
   %.192.peel = inttoptr i64 %.191.peel to ptr
   %.195.peel = load double, ptr %.192.peel, align 8
@@ -5004,12 +4555,12 @@ B244.peel:
   br i1 %or.cond.peel, label %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel, label %B420.peel
 
 _ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel:
-  %.16.i.peel = load i64, ptr %.53, align 8, !noalias !168
+  %.16.i.peel = load i64, ptr %.53, align 8, !noalias !140
   %.17.i.peel = inttoptr i64 %.16.i.peel to ptr
   %.18.i.peel = getelementptr i8, ptr %.17.i.peel, i64 24
-  %.19.i.peel = load double, ptr %.18.i.peel, align 8, !noalias !168
-  %sunkaddr26 = getelementptr i8, ptr %arg.r, i64 224
-  %.23.i.peel = load double, ptr %sunkaddr26, align 8, !noalias !168
+  %.19.i.peel = load double, ptr %.18.i.peel, align 8, !noalias !140
+  %sunkaddr26 = getelementptr i8, ptr %arg.r, i64 240
+  %.23.i.peel = load double, ptr %sunkaddr26, align 8, !noalias !140
   %.26.i.peel = fcmp ule double %.19.i.peel, %.23.i.peel
   br i1 %.26.i.peel, label %B420.peel, label %B370.endif
 
@@ -5019,8 +4570,8 @@ B420.peel:
 
 B166.preheader:
   %2 = add i64 %.202, -1
-  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 520
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 528
+  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 648
   br label %B166
 
 B370.endif.loopexit:
@@ -5030,7 +4581,7 @@ B370.endif.loopexit:
 
 B370.endif:
   %.9.not.i.lcssa = phi i64 [ %4, %B370.endif.loopexit ], [ 9, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel ]
-  %.330 = getelementptr i8, ptr %arg.r, i64 448
+  %.330 = getelementptr i8, ptr %arg.r, i64 496
   store double %arg.t0, ptr %.330, align 8
   store i64 %.9.not.i.lcssa, ptr %retptr, align 8
   br label %common.ret
@@ -5057,13 +4608,7 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t0, double %arg.t1) local_unnamed_addr {
 B0.endif:
-  %.5.i33 = alloca i64, align 8
-  %excinfo.i = alloca ptr, align 8
-  %.36.i.i2 = alloca ptr, align 8
-  %excinfo.1.i.i3 = alloca ptr, align 8
   %.5.i = alloca ptr, align 8
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
   %.181 = alloca i8, align 1
   %excinfo.4 = alloca ptr, align 8
   store ptr null, ptr %excinfo.4, align 8
@@ -5082,14 +4627,14 @@ B0.endif:
   %.12.i = tail call double @llvm.ceil.f64(double %.11.i)
   %.13.i = fptosi double %.12.i to i64
   %.13.i.i = tail call i64 @llvm.smax.i64(i64 %.13.i, i64 1)
-  %.54 = getelementptr i8, ptr %arg.r, i64 360
+  %.54 = getelementptr i8, ptr %arg.r, i64 376
   %.56 = load double, ptr %.54, align 8
   %.58 = fcmp oeq double %arg.t0, %.56
   br i1 %.58, label %B62, label %B190
 
 B62:
   %.11.i6 = getelementptr i8, ptr %arg.r, i64 136
-  %.12.i7 = load i64, ptr %.11.i6, align 8, !noalias !171
+  %.12.i7 = load i64, ptr %.11.i6, align 8, !noalias !143
   %.9443.not.i = icmp slt i64 %.12.i7, 1
   br i1 %.9443.not.i, label %B190, label %B50.lr.ph.i
 
@@ -5108,7 +4653,7 @@ B50.lr.ph.new.i:
 B50.lr.ph.new.i.new:
   %4 = add nuw nsw i64 %2, 1
   %unroll_iter = and i64 %4, 4611686018427387902
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 520
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 640
   br label %B50.i
 
 B50.i:
@@ -5118,54 +4663,54 @@ B50.i:
   br i1 %low.2.046.i, label %B88.7.i.1, label %B56.i
 
 B56.i:
-  %.145.i = load i64, ptr %sunkaddr, align 8, !noalias !171
+  %.145.i = load i64, ptr %sunkaddr, align 8, !noalias !143
   %.146.i = inttoptr i64 %.145.i to ptr
   %5 = shl i64 %.1004244.i, 3
   %scevgep87 = getelementptr i8, ptr %.146.i, i64 56
   %scevgep88 = getelementptr i8, ptr %scevgep87, i64 %5
   %scevgep89 = getelementptr i8, ptr %scevgep88, i64 -56
-  %.149.i = load double, ptr %scevgep89, align 8, !noalias !171
+  %.149.i = load double, ptr %scevgep89, align 8, !noalias !143
   %.152.i = fcmp ugt double %.149.i, 0.000000e+00
   br i1 %.152.i, label %B56.1.i, label %B88.7.i.1
 
 B56.1.i:
   %scevgep86 = getelementptr i8, ptr %scevgep88, i64 -48
-  %.149.1.i = load double, ptr %scevgep86, align 8, !noalias !171
+  %.149.1.i = load double, ptr %scevgep86, align 8, !noalias !143
   %.152.1.i = fcmp ugt double %.149.1.i, 0.000000e+00
   br i1 %.152.1.i, label %B56.2.i, label %B88.7.i.1
 
 B56.2.i:
   %scevgep83 = getelementptr i8, ptr %scevgep88, i64 -40
-  %.149.2.i = load double, ptr %scevgep83, align 8, !noalias !171
+  %.149.2.i = load double, ptr %scevgep83, align 8, !noalias !143
   %.152.2.i = fcmp ugt double %.149.2.i, 0.000000e+00
   br i1 %.152.2.i, label %B56.3.i, label %B88.7.i.1
 
 B56.3.i:
   %scevgep80 = getelementptr i8, ptr %scevgep88, i64 -32
-  %.149.3.i = load double, ptr %scevgep80, align 8, !noalias !171
+  %.149.3.i = load double, ptr %scevgep80, align 8, !noalias !143
   %.152.3.i = fcmp ugt double %.149.3.i, 0.000000e+00
   br i1 %.152.3.i, label %B56.4.i, label %B88.7.i.1
 
 B56.4.i:
   %scevgep77 = getelementptr i8, ptr %scevgep88, i64 -24
-  %.149.4.i = load double, ptr %scevgep77, align 8, !noalias !171
+  %.149.4.i = load double, ptr %scevgep77, align 8, !noalias !143
   %.152.4.i = fcmp ugt double %.149.4.i, 0.000000e+00
   br i1 %.152.4.i, label %B56.5.i, label %B88.7.i.1
 
 B56.5.i:
   %scevgep74 = getelementptr i8, ptr %scevgep88, i64 -16
-  %.149.5.i = load double, ptr %scevgep74, align 8, !noalias !171
+  %.149.5.i = load double, ptr %scevgep74, align 8, !noalias !143
   %.152.5.i = fcmp ugt double %.149.5.i, 0.000000e+00
   br i1 %.152.5.i, label %B88.6.i, label %B88.7.i.1
 
 B88.6.i:
   %scevgep71 = getelementptr i8, ptr %scevgep88, i64 -8
-  %.149.6.i = load double, ptr %scevgep71, align 8, !noalias !171
+  %.149.6.i = load double, ptr %scevgep71, align 8, !noalias !143
   %.152.6.i = fcmp ugt double %.149.6.i, 0.000000e+00
   br i1 %.152.6.i, label %B56.7.i, label %B88.7.i.1
 
 B56.7.i:
-  %.149.7.i = load double, ptr %scevgep88, align 8, !noalias !171
+  %.149.7.i = load double, ptr %scevgep88, align 8, !noalias !143
   %.152.7.i = fcmp ugt double %.149.7.i, 0.000000e+00
   br i1 %.152.7.i, label %B56.i.1, label %B88.7.i.1
 
@@ -5173,48 +4718,48 @@ B56.i.1:
   %scevgep = getelementptr i8, ptr %.146.i, i64 120
   %scevgep46 = getelementptr i8, ptr %scevgep, i64 %5
   %scevgep47 = getelementptr i8, ptr %scevgep46, i64 -56
-  %.149.i.1 = load double, ptr %scevgep47, align 8, !noalias !171
+  %.149.i.1 = load double, ptr %scevgep47, align 8, !noalias !143
   %.152.i.1 = fcmp ugt double %.149.i.1, 0.000000e+00
   br i1 %.152.i.1, label %B56.1.i.1, label %B88.7.i.1
 
 B56.1.i.1:
   %scevgep50 = getelementptr i8, ptr %scevgep46, i64 -48
-  %.149.1.i.1 = load double, ptr %scevgep50, align 8, !noalias !171
+  %.149.1.i.1 = load double, ptr %scevgep50, align 8, !noalias !143
   %.152.1.i.1 = fcmp ugt double %.149.1.i.1, 0.000000e+00
   br i1 %.152.1.i.1, label %B56.2.i.1, label %B88.7.i.1
 
 B56.2.i.1:
   %scevgep53 = getelementptr i8, ptr %scevgep46, i64 -40
-  %.149.2.i.1 = load double, ptr %scevgep53, align 8, !noalias !171
+  %.149.2.i.1 = load double, ptr %scevgep53, align 8, !noalias !143
   %.152.2.i.1 = fcmp ugt double %.149.2.i.1, 0.000000e+00
   br i1 %.152.2.i.1, label %B56.3.i.1, label %B88.7.i.1
 
 B56.3.i.1:
   %scevgep56 = getelementptr i8, ptr %scevgep46, i64 -32
-  %.149.3.i.1 = load double, ptr %scevgep56, align 8, !noalias !171
+  %.149.3.i.1 = load double, ptr %scevgep56, align 8, !noalias !143
   %.152.3.i.1 = fcmp ugt double %.149.3.i.1, 0.000000e+00
   br i1 %.152.3.i.1, label %B56.4.i.1, label %B88.7.i.1
 
 B56.4.i.1:
   %scevgep59 = getelementptr i8, ptr %scevgep46, i64 -24
-  %.149.4.i.1 = load double, ptr %scevgep59, align 8, !noalias !171
+  %.149.4.i.1 = load double, ptr %scevgep59, align 8, !noalias !143
   %.152.4.i.1 = fcmp ugt double %.149.4.i.1, 0.000000e+00
   br i1 %.152.4.i.1, label %B56.5.i.1, label %B88.7.i.1
 
 B56.5.i.1:
   %scevgep62 = getelementptr i8, ptr %scevgep46, i64 -16
-  %.149.5.i.1 = load double, ptr %scevgep62, align 8, !noalias !171
+  %.149.5.i.1 = load double, ptr %scevgep62, align 8, !noalias !143
   %.152.5.i.1 = fcmp ugt double %.149.5.i.1, 0.000000e+00
   br i1 %.152.5.i.1, label %B88.6.i.1, label %B88.7.i.1
 
 B88.6.i.1:
   %scevgep65 = getelementptr i8, ptr %scevgep46, i64 -8
-  %.149.6.i.1 = load double, ptr %scevgep65, align 8, !noalias !171
+  %.149.6.i.1 = load double, ptr %scevgep65, align 8, !noalias !143
   %.152.6.i.1 = fcmp ugt double %.149.6.i.1, 0.000000e+00
   br i1 %.152.6.i.1, label %B56.7.i.1, label %B88.7.i.1
 
 B56.7.i.1:
-  %.149.7.i.1 = load double, ptr %scevgep46, align 8, !noalias !171
+  %.149.7.i.1 = load double, ptr %scevgep46, align 8, !noalias !143
   %.152.7.i.1 = fcmp ole double %.149.7.i.1, 0.000000e+00
   br label %B88.7.i.1
 
@@ -5234,55 +4779,55 @@ B92.loopexit.unr-lcssa.i.unr-lcssa:
   br i1 %brmerge, label %B92.loopexit.unr-lcssa.i, label %B56.i.epil
 
 B56.i.epil:
-  %.1004244.i.epil.init39 = phi i64 [ %.107.73.i.1, %B92.loopexit.unr-lcssa.i.unr-lcssa ], [ 0, %B50.lr.ph.new.i ]
-  %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 520
-  %.145.i.epil = load i64, ptr %sunkaddr91, align 8, !noalias !171
+  %.1004244.i.epil.init3 = phi i64 [ %.107.73.i.1, %B92.loopexit.unr-lcssa.i.unr-lcssa ], [ 0, %B50.lr.ph.new.i ]
+  %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 640
+  %.145.i.epil = load i64, ptr %sunkaddr91, align 8, !noalias !143
   %.146.i.epil = inttoptr i64 %.145.i.epil to ptr
-  %7 = shl i64 %.1004244.i.epil.init39, 3
+  %7 = shl i64 %.1004244.i.epil.init3, 3
   %scevgep17.i.epil = getelementptr i8, ptr %.146.i.epil, i64 %7
-  %.149.i.epil = load double, ptr %scevgep17.i.epil, align 8, !noalias !171
+  %.149.i.epil = load double, ptr %scevgep17.i.epil, align 8, !noalias !143
   %.152.i.epil = fcmp ugt double %.149.i.epil, 0.000000e+00
   br i1 %.152.i.epil, label %B56.1.i.epil, label %B92.loopexit.unr-lcssa.i
 
 B56.1.i.epil:
   %sunkaddr95 = getelementptr i8, ptr %scevgep17.i.epil, i64 8
-  %.149.1.i.epil = load double, ptr %sunkaddr95, align 8, !noalias !171
+  %.149.1.i.epil = load double, ptr %sunkaddr95, align 8, !noalias !143
   %.152.1.i.epil = fcmp ugt double %.149.1.i.epil, 0.000000e+00
   br i1 %.152.1.i.epil, label %B56.2.i.epil, label %B92.loopexit.unr-lcssa.i
 
 B56.2.i.epil:
   %sunkaddr99 = getelementptr i8, ptr %scevgep17.i.epil, i64 16
-  %.149.2.i.epil = load double, ptr %sunkaddr99, align 8, !noalias !171
+  %.149.2.i.epil = load double, ptr %sunkaddr99, align 8, !noalias !143
   %.152.2.i.epil = fcmp ugt double %.149.2.i.epil, 0.000000e+00
   br i1 %.152.2.i.epil, label %B56.3.i.epil, label %B92.loopexit.unr-lcssa.i
 
 B56.3.i.epil:
   %sunkaddr103 = getelementptr i8, ptr %scevgep17.i.epil, i64 24
-  %.149.3.i.epil = load double, ptr %sunkaddr103, align 8, !noalias !171
+  %.149.3.i.epil = load double, ptr %sunkaddr103, align 8, !noalias !143
   %.152.3.i.epil = fcmp ugt double %.149.3.i.epil, 0.000000e+00
   br i1 %.152.3.i.epil, label %B56.4.i.epil, label %B92.loopexit.unr-lcssa.i
 
 B56.4.i.epil:
   %sunkaddr107 = getelementptr i8, ptr %scevgep17.i.epil, i64 32
-  %.149.4.i.epil = load double, ptr %sunkaddr107, align 8, !noalias !171
+  %.149.4.i.epil = load double, ptr %sunkaddr107, align 8, !noalias !143
   %.152.4.i.epil = fcmp ugt double %.149.4.i.epil, 0.000000e+00
   br i1 %.152.4.i.epil, label %B56.5.i.epil, label %B92.loopexit.unr-lcssa.i
 
 B56.5.i.epil:
   %sunkaddr111 = getelementptr i8, ptr %scevgep17.i.epil, i64 40
-  %.149.5.i.epil = load double, ptr %sunkaddr111, align 8, !noalias !171
+  %.149.5.i.epil = load double, ptr %sunkaddr111, align 8, !noalias !143
   %.152.5.i.epil = fcmp ugt double %.149.5.i.epil, 0.000000e+00
   br i1 %.152.5.i.epil, label %B88.6.i.epil, label %B92.loopexit.unr-lcssa.i
 
 B88.6.i.epil:
   %sunkaddr115 = getelementptr i8, ptr %scevgep17.i.epil, i64 48
-  %.149.6.i.epil = load double, ptr %sunkaddr115, align 8, !noalias !171
+  %.149.6.i.epil = load double, ptr %sunkaddr115, align 8, !noalias !143
   %.152.6.i.epil = fcmp ugt double %.149.6.i.epil, 0.000000e+00
   br i1 %.152.6.i.epil, label %B56.7.i.epil, label %B92.loopexit.unr-lcssa.i
 
 B56.7.i.epil:
   %sunkaddr119 = getelementptr i8, ptr %scevgep17.i.epil, i64 56
-  %.149.7.i.epil = load double, ptr %sunkaddr119, align 8, !noalias !171
+  %.149.7.i.epil = load double, ptr %sunkaddr119, align 8, !noalias !143
   %.152.7.i.epil = fcmp ole double %.149.7.i.epil, 0.000000e+00
   br label %B92.loopexit.unr-lcssa.i
 
@@ -5294,7 +4839,7 @@ B92.loopexit.unr-lcssa.i:
 B50.epil.preheader.i:
   %low.2.046.epil.init.i = phi i1 [ false, %B50.lr.ph.i ], [ %"$phi88.1.2.1.7.i.lcssa", %B92.loopexit.unr-lcssa.i ]
   %.1004244.epil.init.i = phi i64 [ 0, %B50.lr.ph.i ], [ %unroll_iter.i, %B92.loopexit.unr-lcssa.i ]
-  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 520
+  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 640
   br label %B50.epil.i
 
 B50.epil.i:
@@ -5304,11 +4849,11 @@ B50.epil.i:
   br i1 %low.2.046.epil.i, label %B88.epil.i, label %B56.epil.i
 
 B56.epil.i:
-  %.145.epil.i = load i64, ptr %sunkaddr120, align 8, !noalias !171
+  %.145.epil.i = load i64, ptr %sunkaddr120, align 8, !noalias !143
   %.146.epil.i = inttoptr i64 %.145.epil.i to ptr
   %8 = shl i64 %.1004244.epil.i, 3
   %scevgep.i = getelementptr i8, ptr %.146.epil.i, i64 %8
-  %.149.epil.i = load double, ptr %scevgep.i, align 8, !noalias !171
+  %.149.epil.i = load double, ptr %scevgep.i, align 8, !noalias !143
   %.152.epil.i = fcmp ole double %.149.epil.i, 0.000000e+00
   br label %B88.epil.i
 
@@ -5317,7 +4862,7 @@ B88.epil.i:
   %lsr.iv.next.i = add nsw i64 %lsr.iv.i, -1
   %.107.epil.i = add nuw nsw i64 %.1004244.epil.i, 1
   %epil.iter.cmp.not.i = icmp eq i64 %lsr.iv.next.i, 0
-  br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, label %B50.epil.i, !llvm.loop !174
+  br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, label %B50.epil.i, !llvm.loop !146
 
 _ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit:
   %"$phi88.1.2.1.lcssa.i" = phi i1 [ %"$phi88.1.2.1.7.i.lcssa", %B92.loopexit.unr-lcssa.i ], [ %"$phi88.1.2.1.epil.i", %B88.epil.i ]
@@ -5328,58 +4873,18 @@ common.ret:
   ret i32 %common.ret.op
 
 B186:
-  store i64 %.19.i36, ptr %retptr, align 8
+  store i64 %.136, ptr %retptr, align 8
   br label %common.ret
 
 B190:
-  %before.4.0 = phi double [ %.13.i9, %lift.exit ], [ %arg.t0, %B0.endif ], [ %arg.t0, %B62 ], [ %arg.t0, %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
-  %.163 = getelementptr i8, ptr %arg.r, i64 560
+  %before.4.0 = phi double [ %.13.i9, %B92.endif ], [ %arg.t0, %B0.endif ], [ %arg.t0, %B62 ], [ %arg.t0, %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
+  %.163 = getelementptr i8, ptr %arg.r, i64 680
   %.164 = load i64, ptr %.163, align 8
   %.165 = inttoptr i64 %.164 to ptr
-  %.167 = getelementptr i8, ptr %arg.r, i64 528
+  %.167 = getelementptr i8, ptr %arg.r, i64 648
   %.168 = load i64, ptr %.167, align 8
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !175
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.13.i.i1 = load double, ptr %.11.i.i, align 8, !noalias !175
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %arg.t1, ptr %.16.i.i, align 8, !noalias !175
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !175
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i1, ptr %.27.i.i, align 8, !noalias !175
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !175
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.165, ptr %.33.i.i, i64 %.35.i.i), !noalias !175
-  switch i32 %.40.i.i, label %entry.if.i [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i:
-  call void @llvm.trap()
-  unreachable
-
-watch.exit:
   %.169 = inttoptr i64 %.168 to ptr
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !175
-  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
-  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !175
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !175
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.169) #0, !noalias !175
+  %.172 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t1, ptr %.165, ptr %.169)
   %.174 = icmp sgt i64 %.13.i, 1
   br i1 %.174, label %B258, label %B362.endif
 
@@ -5397,7 +4902,7 @@ B258:
 B294:
   %.226 = load i64, ptr %.167, align 8
   %.227 = inttoptr i64 %.226 to ptr
-  %.229 = getelementptr i8, ptr %arg.r, i64 520
+  %.229 = getelementptr i8, ptr %arg.r, i64 640
   %.230 = load i64, ptr %.229, align 8
   %.231 = inttoptr i64 %.230 to ptr
   %.233 = getelementptr i8, ptr %arg.r, i64 136
@@ -5445,42 +4950,8 @@ B572:
   %.475 = load i64, ptr %.163, align 8
   %.476 = inttoptr i64 %.475 to ptr
   %.479 = load i64, ptr %.167, align 8
-  %.10.i.i5 = load double, ptr %.8.i.i, align 8, !noalias !179
-  %.13.i.i7 = load double, ptr %.11.i.i, align 8, !noalias !179
-  %.15.i.i9 = load i64, ptr %.14.i.i, align 8, !noalias !179
-  %.16.i.i10 = inttoptr i64 %.15.i.i9 to ptr
-  store double %arg.t1, ptr %.16.i.i10, align 8, !noalias !179
-  %.20.i.i11 = load i64, ptr %.14.i.i, align 8, !noalias !179
-  %.21.i.i12 = inttoptr i64 %.20.i.i11 to ptr
-  %.22.i.i13 = getelementptr i8, ptr %.21.i.i12, i64 8
-  store double %.10.i.i5, ptr %.22.i.i13, align 8, !noalias !179
-  %.25.i.i14 = load i64, ptr %.14.i.i, align 8, !noalias !179
-  %.26.i.i15 = inttoptr i64 %.25.i.i14 to ptr
-  %.27.i.i16 = getelementptr i8, ptr %.26.i.i15, i64 16
-  store double %.13.i.i7, ptr %.27.i.i16, align 8, !noalias !179
-  %.31.i.i17 = load i64, ptr %.14.i.i, align 8, !noalias !179
-  %.32.i.i18 = inttoptr i64 %.31.i.i17 to ptr
-  %.33.i.i19 = getelementptr i8, ptr %.32.i.i18, i64 24
-  %.35.i.i21 = load i64, ptr %.34.i.i, align 8, !noalias !179
-  %.40.i.i22 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i2, ptr nonnull %excinfo.1.i.i3, ptr readonly %.476, ptr %.33.i.i19, i64 %.35.i.i21), !noalias !179
-  switch i32 %.40.i.i22, label %entry.if.i31 [
-    i32 -2, label %watch.exit32
-    i32 0, label %watch.exit32
-  ], !prof !8
-
-entry.if.i31:
-  call void @llvm.trap()
-  unreachable
-
-watch.exit32:
   %.480 = inttoptr i64 %.479 to ptr
-  %.63.i.i24 = load i64, ptr %.62.i.i, align 8, !noalias !179
-  %.65.i.i26 = load i64, ptr %.64.i.i, align 8, !noalias !179
-  %.66.i.i27 = inttoptr i64 %.65.i.i26 to ptr
-  %.68.i.i28 = load i64, ptr %.14.i.i, align 8, !noalias !179
-  %.69.i.i29 = inttoptr i64 %.68.i.i28 to ptr
-  %.70.i.i30 = inttoptr i64 %.63.i.i24 to ptr
-  call void %.70.i.i30(ptr %.66.i.i27, ptr %.69.i.i29, ptr %.480) #0, !noalias !179
+  %.483 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t1, ptr %.476, ptr %.480)
   br label %B628
 
 B628:
@@ -5502,18 +4973,8 @@ B92.endif:
   %.102 = fadd double %arg.t0, 0x3EB0C6F7A0B5ED8D
   %.12.i8 = fcmp olt double %arg.t1, %.102
   %.13.i9 = select i1 %.12.i8, double %arg.t1, double %.102
-  store i64 0, ptr %.5.i33, align 8
-  %.9.i34 = call i32 @_ZN18biped_adrc_kernels4liftB3v43B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i33, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.t0, double %.13.i9) #0
-  %cond.i = icmp eq i32 %.9.i34, 0
-  br i1 %cond.i, label %lift.exit, label %entry.if.i35, !prof !24
-
-entry.if.i35:
-  tail call void @llvm.trap()
-  unreachable
-
-lift.exit:
-  %.19.i36 = load i64, ptr %.5.i33, align 8
-  %.141.not = icmp eq i64 %.19.i36, 0
+  %.136 = tail call i64 @lift(ptr nonnull %arg.r, double %arg.t0, double %.13.i9)
+  %.141.not = icmp eq i64 %.136, 0
   br i1 %.141.not, label %B190, label %B186
 
 B258.endif:
@@ -5536,9 +4997,9 @@ B294.if.if:
 
 B362.endif:
   %.407 = uitofp nneg i64 %.13.i.i to double
-  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 536
+  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 656
   %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 136
-  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 520
+  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 640
   br label %B400
 
 B460.if.if:
@@ -5579,11 +5040,9 @@ declare i64 @llvm.smax.i64(i64, i64) #2
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels7suspectB3v54B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2addx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t0, double %arg.t1, i64 %arg.count) local_unnamed_addr {
 B0.endif:
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
   %.201 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 520
+  %.17 = getelementptr i8, ptr %arg.r, i64 640
   %.18 = load i64, ptr %.17, align 8
   %.19 = inttoptr i64 %.18 to ptr
   %.21 = load double, ptr %.19, align 8
@@ -5594,15 +5053,9 @@ B0.endif:
   %.arg.count = tail call i64 @llvm.smax.i64(i64 %arg.count, i64 0)
   %.187 = fsub double %arg.t1, %arg.t0
   %.191 = sitofp i64 %arg.count to double
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 528
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 536
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 576
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
-  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 656
+  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 696
   br label %B120
 
 B120:
@@ -5633,7 +5086,7 @@ B150:
   ], !prof !8
 
 B292:
-  %w.2.1 = phi ptr [ %.181, %watch.exit ], [ %.170, %B122 ]
+  %w.2.1 = phi ptr [ %.181, %B150.endif.endif ], [ %.170, %B122 ]
   %.252 = load double, ptr %w.2.1, align 8
   %.254 = getelementptr i8, ptr %w.2.1, i64 8
   %.255 = load double, ptr %.254, align 8
@@ -5670,47 +5123,13 @@ B452:
   br label %common.ret
 
 B150.endif.endif:
+  %.181 = inttoptr i64 %.180 to ptr
   %.230 = fmul double %.187, %.190
   %.238 = fdiv double %.230, %.191
   %.240 = fadd double %arg.t0, %.238
   %.243 = load i64, ptr %sunkaddr4, align 8
   %.244 = inttoptr i64 %.243 to ptr
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !183
-  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !183
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %.240, ptr %.16.i.i, align 8, !noalias !183
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !183
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !183
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !183
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.244, ptr %.33.i.i, i64 %.35.i.i), !noalias !183
-  switch i32 %.40.i.i, label %entry.if.i [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i:
-  call void @llvm.trap()
-  unreachable
-
-watch.exit:
-  %.181 = inttoptr i64 %.180 to ptr
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !183
-  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !183
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !183
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.181) #0, !noalias !183
+  %.246 = tail call ptr @watch(ptr nonnull %arg.r, double %.240, ptr %.244, ptr %.181)
   br label %B292
 
 B150.endif.if.if:
@@ -5735,8 +5154,8 @@ B46.lr.ph:
 
 B46.lr.ph.new:
   %1 = and i64 %.18, 9223372036854775804
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 560
-  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 544
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 664
   br label %B46
 
 B46:
@@ -5874,8 +5293,8 @@ B300.loopexit.unr-lcssa:
 
 B46.epil.preheader:
   %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %1, %B300.loopexit.unr-lcssa ]
-  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 560
-  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 544
+  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 664
   br label %B46.epil
 
 B46.epil:
@@ -5913,7 +5332,7 @@ B46.epil:
   store double %.197.epil, ptr %scevgep6, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B300, label %B46.epil, !llvm.loop !187
+  br i1 %epil.iter.cmp.not, label %B300, label %B46.epil, !llvm.loop !147
 
 B300:
   store ptr null, ptr %retptr, align 8
@@ -5941,19 +5360,9 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2addx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, double %arg.t, double %arg.t1, i64 %arg.last) local_unnamed_addr {
 B0:
-  %.6.i17 = alloca ptr, align 8
-  %excinfo.i18 = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i13 = alloca ptr, align 8
-  %.8.i7 = alloca ptr, align 8
-  %excinfo.i8 = alloca ptr, align 8
-  %.8.i2 = alloca ptr, align 8
-  %excinfo.i3 = alloca ptr, align 8
-  %.9.i1 = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.224 = alloca i8, align 1
   %excinfo.4 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 560
+  %.17 = getelementptr i8, ptr %arg.r, i64 680
   %.18 = load i64, ptr %.17, align 8
   %.24 = getelementptr i8, ptr %arg.r, i64 144
   %.25 = load i64, ptr %.24, align 8
@@ -5962,7 +5371,7 @@ B0:
 
 B118:
   %.48 = fsub double %arg.t1, %arg.t
-  %.50 = getelementptr i8, ptr %arg.r, i64 232
+  %.50 = getelementptr i8, ptr %arg.r, i64 248
   %.52 = load double, ptr %.50, align 8
   %.53 = fsub double %.48, %.52
   %.54 = tail call double @llvm.fabs.f64(double %.53)
@@ -5971,54 +5380,38 @@ B118:
   br i1 %.60, label %B328, label %B204
 
 B204:
-  %.66 = getelementptr i8, ptr %arg.r, i64 648
+  %0 = inttoptr i64 %.18 to ptr
+  %.66 = getelementptr i8, ptr %arg.r, i64 768
   %.67 = load i64, ptr %.66, align 8
   %.68 = inttoptr i64 %.67 to ptr
-  %.70 = getelementptr i8, ptr %arg.r, i64 704
+  %.70 = getelementptr i8, ptr %arg.r, i64 824
   %.71 = load i64, ptr %.70, align 8
   %.72 = inttoptr i64 %.71 to ptr
-  %.74 = getelementptr i8, ptr %arg.r, i64 656
+  %.74 = getelementptr i8, ptr %arg.r, i64 776
   %.75 = load i64, ptr %.74, align 8
   %.76 = inttoptr i64 %.75 to ptr
-  %.13.i = call i32 @_ZN18biped_adrc_kernels11exponentialB3v26B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdd10float64_2a10float64_2a10float64_2a(ptr nonnull %.9.i1, ptr nonnull %excinfo.i, ptr nonnull %arg.r, i64 0, double %arg.t, double %.48, ptr %.68, ptr readonly %.72, ptr %.76) #0
-  %cond.i = icmp eq i32 %.13.i, 0
-  br i1 %cond.i, label %exponential.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-exponential.exit:
-  %0 = inttoptr i64 %.18 to ptr
+  %.79 = tail call ptr @exponential(ptr nonnull %arg.r, i64 0, double %arg.t, double %.48, ptr %.68, ptr %.72, ptr %.76)
   %.85 = load i64, ptr %.74, align 8
   %.86 = inttoptr i64 %.85 to ptr
   %.7.i = getelementptr i8, ptr %arg.r, i64 40
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !188
-  %.9.i = getelementptr i8, ptr %arg.r, i64 256
-  %.10.i = load i64, ptr %.9.i, align 8, !noalias !188
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !148
+  %.9.i = getelementptr i8, ptr %arg.r, i64 272
+  %.10.i = load i64, ptr %.9.i, align 8, !noalias !148
   %.11.i = inttoptr i64 %.10.i to ptr
   %.12.i = inttoptr i64 %.8.i to ptr
-  tail call void %.12.i(ptr %.11.i, ptr %.86, ptr %0), !noalias !188
+  tail call void %.12.i(ptr %.11.i, ptr %.86, ptr %0), !noalias !148
   br label %B454
 
 B328:
-  %.12.i4 = call i32 @_ZN18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd(ptr nonnull %.8.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, i64 -1, double %arg.t, double %arg.t1, double %arg.t1, double 0.000000e+00) #0
-  %cond.i5 = icmp eq i32 %.12.i4, 0
-  br i1 %cond.i5, label %halve.exit, label %entry.if.i6, !prof !24
-
-entry.if.i6:
-  tail call void @llvm.trap()
-  unreachable
-
-halve.exit:
-  %.124 = getelementptr i8, ptr %arg.r, i64 456
+  %.120 = tail call ptr @halve(ptr nonnull %arg.r, i64 -1, double %arg.t, double %arg.t1, double %arg.t1, double 0.000000e+00)
+  %.124 = getelementptr i8, ptr %arg.r, i64 504
   %.126 = load double, ptr %.124, align 8
   br label %B454.sink.split
 
 B454.sink.split:
-  %.sink29 = phi i64 [ 632, %halve.exit ], [ 544, %B0 ]
-  %.sink = phi i64 [ 640, %halve.exit ], [ 552, %B0 ]
-  %.126.sink28 = phi double [ %.126, %halve.exit ], [ %arg.t, %B0 ]
+  %.sink29 = phi i64 [ 752, %B328 ], [ 664, %B0 ]
+  %.sink = phi i64 [ 760, %B328 ], [ 672, %B0 ]
+  %.126.sink28 = phi double [ %.126, %B328 ], [ %arg.t, %B0 ]
   %1 = inttoptr i64 %.18 to ptr
   %.128 = getelementptr i8, ptr %arg.r, i64 %.sink29
   %.129 = load i64, ptr %.128, align 8
@@ -6027,15 +5420,7 @@ B454.sink.split:
   %.133 = load i64, ptr %.132, align 8
   %.134 = inttoptr i64 %.133 to ptr
   %.140 = fsub double %arg.t1, %.126.sink28
-  %.12.i9 = call i32 @_ZN18biped_adrc_kernels9classicalB3v24B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2ad10float64_2a(ptr nonnull %.8.i7, ptr nonnull %excinfo.i8, ptr nonnull %arg.r, double %.126.sink28, ptr %.130, ptr readonly %.134, double %.140, ptr %1) #0
-  %cond.i10 = icmp eq i32 %.12.i9, 0
-  br i1 %cond.i10, label %classical.exit, label %entry.if.i11, !prof !24
-
-entry.if.i11:
-  tail call void @llvm.trap()
-  unreachable
-
-classical.exit:
+  %.143 = tail call ptr @classical(ptr nonnull %arg.r, double %.126.sink28, ptr %.130, ptr %.134, double %.140, ptr %1)
   br label %B454
 
 B454:
@@ -6049,7 +5434,7 @@ iter.check.i:
   br i1 %min.iters.check.i, label %iter.check.i.B40.i.preheader_crit_edge, label %vector.main.loop.iter.check.i
 
 iter.check.i.B40.i.preheader_crit_edge:
-  %.pre57 = inttoptr i64 %.18 to ptr
+  %.pre35 = inttoptr i64 %.18 to ptr
   br label %B40.i.preheader
 
 vector.main.loop.iter.check.i:
@@ -6057,7 +5442,7 @@ vector.main.loop.iter.check.i:
   br i1 %min.iters.check1.i, label %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge, label %vector.ph.i
 
 vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge:
-  %.pre59 = inttoptr i64 %.18 to ptr
+  %.pre37 = inttoptr i64 %.18 to ptr
   br label %vec.epilog.ph.i
 
 vector.ph.i:
@@ -6073,13 +5458,13 @@ vector.body.i:
   %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %13, %vector.body.i ]
   %sunkaddr243 = shl i64 %index.i, 3
   %sunkaddr244 = getelementptr i8, ptr %sunkaddr, i64 %sunkaddr243
-  %wide.load.i = load <4 x double>, ptr %sunkaddr244, align 8, !noalias !191
+  %wide.load.i = load <4 x double>, ptr %sunkaddr244, align 8, !noalias !151
   %sunkaddr248 = getelementptr i8, ptr %sunkaddr244, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr248, align 8, !noalias !191
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr248, align 8, !noalias !151
   %sunkaddr252 = getelementptr i8, ptr %sunkaddr244, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr252, align 8, !noalias !191
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr252, align 8, !noalias !151
   %sunkaddr256 = getelementptr i8, ptr %sunkaddr244, i64 96
-  %wide.load7.i = load <4 x double>, ptr %sunkaddr256, align 8, !noalias !191
+  %wide.load7.i = load <4 x double>, ptr %sunkaddr256, align 8, !noalias !151
   %2 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
   %3 = fcmp one <4 x double> %2, splat (double 0x7FF0000000000000)
   %4 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
@@ -6094,7 +5479,7 @@ vector.body.i:
   %13 = and <4 x i1> %vec.phi4.i, %9
   %index.next.i = add nuw nsw i64 %index.i, 16
   %14 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %14, label %middle.block.i, label %vector.body.i, !llvm.loop !194
+  br i1 %14, label %middle.block.i, label %vector.body.i, !llvm.loop !154
 
 middle.block.i:
   %bin.rdx.i = and <4 x i1> %10, %11
@@ -6111,7 +5496,7 @@ vec.epilog.iter.check.i:
   br i1 %min.epilog.iters.check.i, label %B40.i.preheader, label %vec.epilog.ph.i, !prof !20
 
 vec.epilog.ph.i:
-  %.pre-phi60 = phi ptr [ %.pre59, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %sunkaddr, %vec.epilog.iter.check.i ]
+  %.pre-phi38 = phi ptr [ %.pre37, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %sunkaddr, %vec.epilog.iter.check.i ]
   %vec.epilog.resume.val.i = phi i64 [ 0, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %n.vec.i, %vec.epilog.iter.check.i ]
   %bc.merge.rdx.i = phi i1 [ true, %vector.main.loop.iter.check.i.vec.epilog.ph.i_crit_edge ], [ %16, %vec.epilog.iter.check.i ]
   %n.vec11.i = and i64 %.148, 9223372036854775804
@@ -6122,14 +5507,14 @@ vec.epilog.vector.body.i:
   %index12.i = phi i64 [ %vec.epilog.resume.val.i, %vec.epilog.ph.i ], [ %index.next15.i, %vec.epilog.vector.body.i ]
   %vec.phi13.i = phi <4 x i1> [ %18, %vec.epilog.ph.i ], [ %22, %vec.epilog.vector.body.i ]
   %19 = shl i64 %index12.i, 3
-  %scevgep28.i = getelementptr i8, ptr %.pre-phi60, i64 %19
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !191
+  %scevgep28.i = getelementptr i8, ptr %.pre-phi38, i64 %19
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !151
   %20 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
   %21 = fcmp one <4 x double> %20, splat (double 0x7FF0000000000000)
   %22 = and <4 x i1> %vec.phi13.i, %21
   %index.next15.i = add nuw i64 %index12.i, 4
   %23 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %23, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !195
+  br i1 %23, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !155
 
 vec.epilog.middle.block.i:
   %24 = bitcast <4 x i1> %22 to i4
@@ -6138,7 +5523,7 @@ vec.epilog.middle.block.i:
   br i1 %cmp.n16.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i.preheader
 
 B40.i.preheader:
-  %.pre-phi58 = phi ptr [ %.pre57, %iter.check.i.B40.i.preheader_crit_edge ], [ %.pre-phi60, %vec.epilog.middle.block.i ], [ %sunkaddr, %vec.epilog.iter.check.i ]
+  %.pre-phi36 = phi ptr [ %.pre35, %iter.check.i.B40.i.preheader_crit_edge ], [ %.pre-phi38, %vec.epilog.middle.block.i ], [ %sunkaddr, %vec.epilog.iter.check.i ]
   %good.2.043.i.ph = phi i1 [ true, %iter.check.i.B40.i.preheader_crit_edge ], [ %25, %vec.epilog.middle.block.i ], [ %16, %vec.epilog.iter.check.i ]
   %.983941.i.ph = phi i64 [ 0, %iter.check.i.B40.i.preheader_crit_edge ], [ %n.vec11.i, %vec.epilog.middle.block.i ], [ %n.vec.i, %vec.epilog.iter.check.i ]
   br label %B40.i
@@ -6148,13 +5533,13 @@ B40.i:
   %.983941.i = phi i64 [ %.105.i, %B40.i ], [ %.983941.i.ph, %B40.i.preheader ]
   %.105.i = add nuw nsw i64 %.983941.i, 1
   %26 = shl i64 %.983941.i, 3
-  %scevgep.i = getelementptr i8, ptr %.pre-phi58, i64 %26
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !191
+  %scevgep.i = getelementptr i8, ptr %.pre-phi36, i64 %26
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !151
   %27 = tail call double @llvm.fabs.f64(double %.132.i)
   %28 = fcmp one double %27, 0x7FF0000000000000
   %.136.i = and i1 %good.2.043.i, %28
   %exitcond.not.i = icmp eq i64 %.148, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !196
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !156
 
 _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
   %.136.lcssa.i = phi i1 [ %25, %vec.epilog.middle.block.i ], [ %16, %middle.block.i ], [ %.136.i, %B40.i ]
@@ -6184,21 +5569,13 @@ B574:
   br i1 %or.cond, label %B618, label %B756
 
 B618:
-  %.277 = getelementptr i8, ptr %arg.r, i64 656
+  %.277 = getelementptr i8, ptr %arg.r, i64 776
   %.278 = load i64, ptr %.277, align 8
   %.279 = inttoptr i64 %.278 to ptr
-  %.281 = getelementptr i8, ptr %arg.r, i64 712
+  %.281 = getelementptr i8, ptr %arg.r, i64 832
   %.282 = load i64, ptr %.281, align 8
   %.283 = inttoptr i64 %.282 to ptr
-  %.10.i14 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i13, ptr nonnull %arg.r, double %arg.t1, ptr %.279, ptr %.283) #0
-  %cond.i15 = icmp eq i32 %.10.i14, 0
-  br i1 %cond.i15, label %remainder.exit, label %entry.if.i16, !prof !24
-
-entry.if.i16:
-  tail call void @llvm.trap()
-  unreachable
-
-remainder.exit:
+  %.286 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t1, ptr %.279, ptr %.283)
   %.290 = load i64, ptr %.281, align 8
   %.293 = getelementptr i8, ptr %arg.r, i64 120
   %.294 = load i64, ptr %.293, align 8
@@ -6210,7 +5587,7 @@ iter.check.i5:
   br i1 %min.iters.check.i6, label %iter.check.i5.B40.i49.preheader_crit_edge, label %vector.main.loop.iter.check.i7
 
 iter.check.i5.B40.i49.preheader_crit_edge:
-  %.pre53 = inttoptr i64 %.290 to ptr
+  %.pre31 = inttoptr i64 %.290 to ptr
   br label %B40.i49.preheader
 
 vector.main.loop.iter.check.i7:
@@ -6218,7 +5595,7 @@ vector.main.loop.iter.check.i7:
   br i1 %min.iters.check1.i8, label %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge, label %vector.ph.i9
 
 vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge:
-  %.pre55 = inttoptr i64 %.290 to ptr
+  %.pre33 = inttoptr i64 %.290 to ptr
   br label %vec.epilog.ph.i34
 
 vector.ph.i9:
@@ -6234,13 +5611,13 @@ vector.body.i11:
   %vec.phi4.i16 = phi <4 x i1> [ splat (i1 true), %vector.ph.i9 ], [ %41, %vector.body.i11 ]
   %sunkaddr259 = shl i64 %index.i12, 3
   %sunkaddr260 = getelementptr i8, ptr %sunkaddr258, i64 %sunkaddr259
-  %wide.load.i19 = load <4 x double>, ptr %sunkaddr260, align 8, !noalias !197
+  %wide.load.i19 = load <4 x double>, ptr %sunkaddr260, align 8, !noalias !157
   %sunkaddr264 = getelementptr i8, ptr %sunkaddr260, i64 32
-  %wide.load5.i21 = load <4 x double>, ptr %sunkaddr264, align 8, !noalias !197
+  %wide.load5.i21 = load <4 x double>, ptr %sunkaddr264, align 8, !noalias !157
   %sunkaddr268 = getelementptr i8, ptr %sunkaddr260, i64 64
-  %wide.load6.i23 = load <4 x double>, ptr %sunkaddr268, align 8, !noalias !197
+  %wide.load6.i23 = load <4 x double>, ptr %sunkaddr268, align 8, !noalias !157
   %sunkaddr272 = getelementptr i8, ptr %sunkaddr260, i64 96
-  %wide.load7.i25 = load <4 x double>, ptr %sunkaddr272, align 8, !noalias !197
+  %wide.load7.i25 = load <4 x double>, ptr %sunkaddr272, align 8, !noalias !157
   %30 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i19)
   %31 = fcmp one <4 x double> %30, splat (double 0x7FF0000000000000)
   %32 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i21)
@@ -6255,7 +5632,7 @@ vector.body.i11:
   %41 = and <4 x i1> %vec.phi4.i16, %37
   %index.next.i26 = add nuw nsw i64 %index.i12, 16
   %42 = icmp eq i64 %n.vec.i10, %index.next.i26
-  br i1 %42, label %middle.block.i27, label %vector.body.i11, !llvm.loop !194
+  br i1 %42, label %middle.block.i27, label %vector.body.i11, !llvm.loop !154
 
 middle.block.i27:
   %bin.rdx.i28 = and <4 x i1> %38, %39
@@ -6272,7 +5649,7 @@ vec.epilog.iter.check.i32:
   br i1 %min.epilog.iters.check.i33, label %B40.i49.preheader, label %vec.epilog.ph.i34, !prof !20
 
 vec.epilog.ph.i34:
-  %.pre-phi56 = phi ptr [ %.pre55, %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge ], [ %sunkaddr258, %vec.epilog.iter.check.i32 ]
+  %.pre-phi34 = phi ptr [ %.pre33, %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge ], [ %sunkaddr258, %vec.epilog.iter.check.i32 ]
   %vec.epilog.resume.val.i35 = phi i64 [ 0, %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge ], [ %n.vec.i10, %vec.epilog.iter.check.i32 ]
   %bc.merge.rdx.i36 = phi i1 [ true, %vector.main.loop.iter.check.i7.vec.epilog.ph.i34_crit_edge ], [ %44, %vec.epilog.iter.check.i32 ]
   %n.vec11.i37 = and i64 %.294, 9223372036854775804
@@ -6283,14 +5660,14 @@ vec.epilog.vector.body.i38:
   %index12.i39 = phi i64 [ %vec.epilog.resume.val.i35, %vec.epilog.ph.i34 ], [ %index.next15.i43, %vec.epilog.vector.body.i38 ]
   %vec.phi13.i40 = phi <4 x i1> [ %46, %vec.epilog.ph.i34 ], [ %50, %vec.epilog.vector.body.i38 ]
   %47 = shl i64 %index12.i39, 3
-  %scevgep28.i41 = getelementptr i8, ptr %.pre-phi56, i64 %47
-  %wide.load14.i42 = load <4 x double>, ptr %scevgep28.i41, align 8, !noalias !197
+  %scevgep28.i41 = getelementptr i8, ptr %.pre-phi34, i64 %47
+  %wide.load14.i42 = load <4 x double>, ptr %scevgep28.i41, align 8, !noalias !157
   %48 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i42)
   %49 = fcmp one <4 x double> %48, splat (double 0x7FF0000000000000)
   %50 = and <4 x i1> %vec.phi13.i40, %49
   %index.next15.i43 = add nuw i64 %index12.i39, 4
   %51 = icmp eq i64 %n.vec11.i37, %index.next15.i43
-  br i1 %51, label %vec.epilog.middle.block.i44, label %vec.epilog.vector.body.i38, !llvm.loop !195
+  br i1 %51, label %vec.epilog.middle.block.i44, label %vec.epilog.vector.body.i38, !llvm.loop !155
 
 vec.epilog.middle.block.i44:
   %52 = bitcast <4 x i1> %50 to i4
@@ -6299,7 +5676,7 @@ vec.epilog.middle.block.i44:
   br i1 %cmp.n16.i45, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, label %B40.i49.preheader
 
 B40.i49.preheader:
-  %.pre-phi54 = phi ptr [ %.pre53, %iter.check.i5.B40.i49.preheader_crit_edge ], [ %.pre-phi56, %vec.epilog.middle.block.i44 ], [ %sunkaddr258, %vec.epilog.iter.check.i32 ]
+  %.pre-phi32 = phi ptr [ %.pre31, %iter.check.i5.B40.i49.preheader_crit_edge ], [ %.pre-phi34, %vec.epilog.middle.block.i44 ], [ %sunkaddr258, %vec.epilog.iter.check.i32 ]
   %good.2.043.i50.ph = phi i1 [ true, %iter.check.i5.B40.i49.preheader_crit_edge ], [ %53, %vec.epilog.middle.block.i44 ], [ %44, %vec.epilog.iter.check.i32 ]
   %.983941.i51.ph = phi i64 [ 0, %iter.check.i5.B40.i49.preheader_crit_edge ], [ %n.vec11.i37, %vec.epilog.middle.block.i44 ], [ %n.vec.i10, %vec.epilog.iter.check.i32 ]
   br label %B40.i49
@@ -6309,20 +5686,20 @@ B40.i49:
   %.983941.i51 = phi i64 [ %.105.i52, %B40.i49 ], [ %.983941.i51.ph, %B40.i49.preheader ]
   %.105.i52 = add nuw nsw i64 %.983941.i51, 1
   %54 = shl i64 %.983941.i51, 3
-  %scevgep.i53 = getelementptr i8, ptr %.pre-phi54, i64 %54
-  %.132.i54 = load double, ptr %scevgep.i53, align 8, !noalias !197
+  %scevgep.i53 = getelementptr i8, ptr %.pre-phi32, i64 %54
+  %.132.i54 = load double, ptr %scevgep.i53, align 8, !noalias !157
   %55 = call double @llvm.fabs.f64(double %.132.i54)
   %56 = fcmp one double %55, 0x7FF0000000000000
   %.136.i55 = and i1 %good.2.043.i50, %56
   %exitcond.not.i56 = icmp eq i64 %.294, %.105.i52
-  br i1 %exitcond.not.i56, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, label %B40.i49, !llvm.loop !196
+  br i1 %exitcond.not.i56, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60, label %B40.i49, !llvm.loop !156
 
 _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit60:
   %.136.lcssa.i58 = phi i1 [ %53, %vec.epilog.middle.block.i44 ], [ %44, %middle.block.i27 ], [ %.136.i55, %B40.i49 ]
   br i1 %.136.lcssa.i58, label %B756, label %B726.endif
 
 B756:
-  %.366 = getelementptr i8, ptr %arg.r, i64 384
+  %.366 = getelementptr i8, ptr %arg.r, i64 400
   %.367 = load i64, ptr %.366, align 8
   %.368 = icmp sgt i64 %.367, 0
   br i1 %.368, label %B822, label %B778
@@ -6334,18 +5711,10 @@ B778:
   br i1 %or.cond27, label %B822, label %B950
 
 B822:
-  %.383 = getelementptr i8, ptr %arg.r, i64 568
+  %.383 = getelementptr i8, ptr %arg.r, i64 688
   %.384 = load i64, ptr %.383, align 8
   %.385 = inttoptr i64 %.384 to ptr
-  %.10.i19 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i17, ptr nonnull %excinfo.i18, ptr nonnull %arg.r, double %arg.t1, ptr readonly %29, ptr %.385) #0
-  %cond.i20 = icmp eq i32 %.10.i19, 0
-  br i1 %cond.i20, label %flow.exit, label %entry.if.i21, !prof !24
-
-entry.if.i21:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit:
+  %.389 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t1, ptr %29, ptr %.385)
   %.397 = load i64, ptr %.383, align 8
   %.401 = load i64, ptr %.147, align 8
   %.9240.not.i65 = icmp slt i64 %.401, 1
@@ -6364,7 +5733,7 @@ vector.main.loop.iter.check.i68:
   br i1 %min.iters.check1.i69, label %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge, label %vector.ph.i70
 
 vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge:
-  %.pre51 = inttoptr i64 %.397 to ptr
+  %.pre29 = inttoptr i64 %.397 to ptr
   br label %vec.epilog.ph.i95
 
 vector.ph.i70:
@@ -6380,13 +5749,13 @@ vector.body.i72:
   %vec.phi4.i77 = phi <4 x i1> [ splat (i1 true), %vector.ph.i70 ], [ %68, %vector.body.i72 ]
   %sunkaddr276 = shl i64 %index.i73, 3
   %sunkaddr277 = getelementptr i8, ptr %sunkaddr275, i64 %sunkaddr276
-  %wide.load.i80 = load <4 x double>, ptr %sunkaddr277, align 8, !noalias !200
+  %wide.load.i80 = load <4 x double>, ptr %sunkaddr277, align 8, !noalias !160
   %sunkaddr281 = getelementptr i8, ptr %sunkaddr277, i64 32
-  %wide.load5.i82 = load <4 x double>, ptr %sunkaddr281, align 8, !noalias !200
+  %wide.load5.i82 = load <4 x double>, ptr %sunkaddr281, align 8, !noalias !160
   %sunkaddr285 = getelementptr i8, ptr %sunkaddr277, i64 64
-  %wide.load6.i84 = load <4 x double>, ptr %sunkaddr285, align 8, !noalias !200
+  %wide.load6.i84 = load <4 x double>, ptr %sunkaddr285, align 8, !noalias !160
   %sunkaddr289 = getelementptr i8, ptr %sunkaddr277, i64 96
-  %wide.load7.i86 = load <4 x double>, ptr %sunkaddr289, align 8, !noalias !200
+  %wide.load7.i86 = load <4 x double>, ptr %sunkaddr289, align 8, !noalias !160
   %57 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i80)
   %58 = fcmp one <4 x double> %57, splat (double 0x7FF0000000000000)
   %59 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i82)
@@ -6401,7 +5770,7 @@ vector.body.i72:
   %68 = and <4 x i1> %vec.phi4.i77, %64
   %index.next.i87 = add nuw nsw i64 %index.i73, 16
   %69 = icmp eq i64 %n.vec.i71, %index.next.i87
-  br i1 %69, label %middle.block.i88, label %vector.body.i72, !llvm.loop !194
+  br i1 %69, label %middle.block.i88, label %vector.body.i72, !llvm.loop !154
 
 middle.block.i88:
   %bin.rdx.i89 = and <4 x i1> %65, %66
@@ -6418,7 +5787,7 @@ vec.epilog.iter.check.i93:
   br i1 %min.epilog.iters.check.i94, label %B40.i110.preheader, label %vec.epilog.ph.i95, !prof !20
 
 vec.epilog.ph.i95:
-  %.pre-phi52 = phi ptr [ %.pre51, %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge ], [ %sunkaddr275, %vec.epilog.iter.check.i93 ]
+  %.pre-phi30 = phi ptr [ %.pre29, %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge ], [ %sunkaddr275, %vec.epilog.iter.check.i93 ]
   %vec.epilog.resume.val.i96 = phi i64 [ 0, %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge ], [ %n.vec.i71, %vec.epilog.iter.check.i93 ]
   %bc.merge.rdx.i97 = phi i1 [ true, %vector.main.loop.iter.check.i68.vec.epilog.ph.i95_crit_edge ], [ %71, %vec.epilog.iter.check.i93 ]
   %n.vec11.i98 = and i64 %.401, 9223372036854775804
@@ -6429,14 +5798,14 @@ vec.epilog.vector.body.i99:
   %index12.i100 = phi i64 [ %vec.epilog.resume.val.i96, %vec.epilog.ph.i95 ], [ %index.next15.i104, %vec.epilog.vector.body.i99 ]
   %vec.phi13.i101 = phi <4 x i1> [ %73, %vec.epilog.ph.i95 ], [ %77, %vec.epilog.vector.body.i99 ]
   %74 = shl i64 %index12.i100, 3
-  %scevgep28.i102 = getelementptr i8, ptr %.pre-phi52, i64 %74
-  %wide.load14.i103 = load <4 x double>, ptr %scevgep28.i102, align 8, !noalias !200
+  %scevgep28.i102 = getelementptr i8, ptr %.pre-phi30, i64 %74
+  %wide.load14.i103 = load <4 x double>, ptr %scevgep28.i102, align 8, !noalias !160
   %75 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i103)
   %76 = fcmp one <4 x double> %75, splat (double 0x7FF0000000000000)
   %77 = and <4 x i1> %vec.phi13.i101, %76
   %index.next15.i104 = add nuw i64 %index12.i100, 4
   %78 = icmp eq i64 %n.vec11.i98, %index.next15.i104
-  br i1 %78, label %vec.epilog.middle.block.i105, label %vec.epilog.vector.body.i99, !llvm.loop !195
+  br i1 %78, label %vec.epilog.middle.block.i105, label %vec.epilog.vector.body.i99, !llvm.loop !155
 
 vec.epilog.middle.block.i105:
   %79 = bitcast <4 x i1> %77 to i4
@@ -6445,7 +5814,7 @@ vec.epilog.middle.block.i105:
   br i1 %cmp.n16.i106, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, label %B40.i110.preheader
 
 B40.i110.preheader:
-  %.pre-phi = phi ptr [ %.pre, %iter.check.i66.B40.i110.preheader_crit_edge ], [ %.pre-phi52, %vec.epilog.middle.block.i105 ], [ %sunkaddr275, %vec.epilog.iter.check.i93 ]
+  %.pre-phi = phi ptr [ %.pre, %iter.check.i66.B40.i110.preheader_crit_edge ], [ %.pre-phi30, %vec.epilog.middle.block.i105 ], [ %sunkaddr275, %vec.epilog.iter.check.i93 ]
   %good.2.043.i111.ph = phi i1 [ true, %iter.check.i66.B40.i110.preheader_crit_edge ], [ %80, %vec.epilog.middle.block.i105 ], [ %71, %vec.epilog.iter.check.i93 ]
   %.983941.i112.ph = phi i64 [ 0, %iter.check.i66.B40.i110.preheader_crit_edge ], [ %n.vec11.i98, %vec.epilog.middle.block.i105 ], [ %n.vec.i71, %vec.epilog.iter.check.i93 ]
   br label %B40.i110
@@ -6456,12 +5825,12 @@ B40.i110:
   %.105.i113 = add nuw nsw i64 %.983941.i112, 1
   %81 = shl i64 %.983941.i112, 3
   %scevgep.i114 = getelementptr i8, ptr %.pre-phi, i64 %81
-  %.132.i115 = load double, ptr %scevgep.i114, align 8, !noalias !200
+  %.132.i115 = load double, ptr %scevgep.i114, align 8, !noalias !160
   %82 = call double @llvm.fabs.f64(double %.132.i115)
   %83 = fcmp one double %82, 0x7FF0000000000000
   %.136.i116 = and i1 %good.2.043.i111, %83
   %exitcond.not.i117 = icmp eq i64 %.401, %.105.i113
-  br i1 %exitcond.not.i117, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, label %B40.i110, !llvm.loop !196
+  br i1 %exitcond.not.i117, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121, label %B40.i110, !llvm.loop !156
 
 _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit121:
   %.136.lcssa.i119 = phi i1 [ %80, %vec.epilog.middle.block.i105 ], [ %71, %middle.block.i88 ], [ %.136.i116, %B40.i110 ]
@@ -6472,8 +5841,8 @@ B950:
   br label %common.ret
 
 B496.endif:
-  %.8.i1 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !203
+  %.8.i1 = getelementptr i8, ptr %arg.r, i64 472
+  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !163
   %.10.i3 = icmp eq i64 %.9.i2, 0
   %spec.select.i = select i1 %.10.i3, i64 4, i64 %.9.i2
   store i64 %spec.select.i, ptr %retptr, align 8
@@ -6496,16 +5865,16 @@ B526.endif.if.if:
   br label %common.ret
 
 B726.endif:
-  %.8.i61 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i62 = load i64, ptr %.8.i61, align 8, !noalias !206
+  %.8.i61 = getelementptr i8, ptr %arg.r, i64 472
+  %.9.i62 = load i64, ptr %.8.i61, align 8, !noalias !166
   %.10.i63 = icmp eq i64 %.9.i62, 0
   %spec.select.i64 = select i1 %.10.i63, i64 4, i64 %.9.i62
   store i64 %spec.select.i64, ptr %retptr, align 8
   br label %common.ret
 
 B920.endif:
-  %.8.i122 = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i123 = load i64, ptr %.8.i122, align 8, !noalias !209
+  %.8.i122 = getelementptr i8, ptr %arg.r, i64 472
+  %.9.i123 = load i64, ptr %.8.i122, align 8, !noalias !169
   %.10.i124 = icmp eq i64 %.9.i123, 0
   %spec.select.i125 = select i1 %.10.i124, i64 4, i64 %.9.i123
   store i64 %spec.select.i125, ptr %retptr, align 8
@@ -6534,8 +5903,8 @@ B54.lr.ph.new:
   %1 = shl i64 %.13, 3
   %scevgep29 = getelementptr i8, ptr %arg.x, i64 24
   %scevgep37 = getelementptr i8, ptr %scevgep29, i64 %1
-  %sunkaddr44 = getelementptr i8, ptr %arg.r, i64 280
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 248
+  %sunkaddr44 = getelementptr i8, ptr %arg.r, i64 296
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 264
   br label %B54
 
 B54:
@@ -6627,8 +5996,8 @@ B54.epil.preheader:
   %fits.2.051.epil.init = phi i1 [ true, %B54.lr.ph.B54.epil.preheader_crit_edge ], [ %"$phi196.1.3.1.3", %B200.loopexit.unr-lcssa ]
   %.1084749.epil.init = phi i64 [ 0, %B54.lr.ph.B54.epil.preheader_crit_edge ], [ %unroll_iter, %B200.loopexit.unr-lcssa ]
   %scevgep4 = getelementptr i8, ptr %arg.x, i64 %.pre-phi
-  %sunkaddr49 = getelementptr i8, ptr %arg.r, i64 280
-  %sunkaddr50 = getelementptr i8, ptr %arg.r, i64 248
+  %sunkaddr49 = getelementptr i8, ptr %arg.r, i64 296
+  %sunkaddr50 = getelementptr i8, ptr %arg.r, i64 264
   br label %B54.epil
 
 B54.epil:
@@ -6662,7 +6031,7 @@ B196.epil:
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %.115.epil = add nuw nsw i64 %.1084749.epil, 1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B200.loopexit, label %B54.epil, !llvm.loop !212
+  br i1 %epil.iter.cmp.not, label %B200.loopexit, label %B54.epil, !llvm.loop !172
 
 B200.loopexit:
   %"$phi196.1.3.1.lcssa" = phi i1 [ %"$phi196.1.3.1.3", %B200.loopexit.unr-lcssa ], [ %"$phi196.1.3.1.epil", %B196.epil ]
@@ -6694,16 +6063,8 @@ common.ret:
   ret i64 %.20
 }
 
-define i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((440, 448)) %arg.r, double %arg.t_next) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((488, 496)) %arg.r, double %arg.t_next) local_unnamed_addr {
 for.end.endif:
-  %.6.i11 = alloca ptr, align 8
-  %excinfo.i12 = alloca ptr, align 8
-  %.6.i5 = alloca ptr, align 8
-  %excinfo.i6 = alloca ptr, align 8
-  %.5.i = alloca i64, align 8
-  %excinfo.i1 = alloca ptr, align 8
-  %.6.i = alloca i64, align 8
-  %excinfo.i = alloca ptr, align 8
   %.189 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
   %.465 = alloca i64, align 8
@@ -6714,13 +6075,13 @@ for.end.endif:
   %.575 = alloca ptr, align 8
   %excinfo.9 = alloca ptr, align 8
   store ptr null, ptr %excinfo.9, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 328
+  %.11 = getelementptr i8, ptr %arg.r, i64 344
   %.13 = load double, ptr %.11, align 8
-  %.15.i = tail call double @nextafter(double %arg.t_next, double 0xFFF0000000000000), !noalias !213
-  %.77 = getelementptr i8, ptr %arg.r, i64 440
+  %.15.i = tail call double @nextafter(double %arg.t_next, double 0xFFF0000000000000), !noalias !173
+  %.77 = getelementptr i8, ptr %arg.r, i64 488
   store double %.15.i, ptr %.77, align 8
   %.82 = fsub double %arg.t_next, %.13
-  %.84 = getelementptr i8, ptr %arg.r, i64 232
+  %.84 = getelementptr i8, ptr %arg.r, i64 248
   %.86 = load double, ptr %.84, align 8
   %.90 = fdiv double %.82, %.86
   %.91 = fadd double %.90, -1.000000e-09
@@ -6742,7 +6103,7 @@ B316:
   br i1 %.275, label %B358, label %B392
 
 B358:
-  %.8.i = load double, ptr %.11, align 8, !noalias !216
+  %.8.i = load double, ptr %.11, align 8, !noalias !176
   br label %B516
 
 B392:
@@ -6760,22 +6121,12 @@ B504:
   %"$phi432.0.2.1" = phi double [ %.329, %B404 ], [ %arg.t_next, %B392 ]
   %.346 = fcmp ole double %.13.i, %.318
   %.15.i6 = zext i1 %.346 to i64
-  store i64 0, ptr %.6.i, align 8
-  %.10.i = call i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2addx(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %t.2.0, double %"$phi432.0.2.1", i64 %.15.i6) #0
-  %cond.i = icmp eq i32 %.10.i, 0
-  br i1 %cond.i, label %fixed.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-fixed.exit:
-  %.20.i = load i64, ptr %.6.i, align 8
-  %.379.not = icmp eq i64 %.20.i, 0
+  %.374 = tail call i64 @fixed(ptr nonnull %arg.r, double %t.2.0, double %"$phi432.0.2.1", i64 %.15.i6)
+  %.379.not = icmp eq i64 %.374, 0
   br i1 %.379.not, label %B516, label %B578
 
 B516:
-  %t1.2.176 = phi double [ %"$phi432.0.2.1", %fixed.exit ], [ %.8.i, %B358 ]
+  %t1.2.176 = phi double [ %"$phi432.0.2.1", %B504 ], [ %.8.i, %B358 ]
   %.383 = fcmp ole double %t1.2.176, %t.2.0
   %.386 = icmp samesign ugt i64 %steps.2.0, 9999999
   %or.cond = select i1 %.383, i1 true, i1 %.386
@@ -6786,36 +6137,26 @@ common.ret:
   ret i32 %common.ret.op
 
 B578:
-  %"$phi578.0.2.0" = phi i64 [ %.20.i, %fixed.exit ], [ 6, %B516 ]
+  %"$phi578.0.2.0" = phi i64 [ %.374, %B504 ], [ 6, %B516 ]
   store i64 %"$phi578.0.2.0", ptr %retptr, align 8
   br label %common.ret
 
 B580:
-  store i64 0, ptr %.5.i, align 8
-  %.9.i = call i32 @_ZN18biped_adrc_kernels5eventB3v50B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull %excinfo.i1, ptr nonnull %arg.r, double %t.2.0, double %t1.2.176) #0
-  %cond.i2 = icmp eq i32 %.9.i, 0
-  br i1 %cond.i2, label %event.exit, label %entry.if.i3, !prof !24
-
-entry.if.i3:
-  tail call void @llvm.trap()
-  unreachable
-
-event.exit:
-  %.19.i4 = load i64, ptr %.5.i, align 8
-  switch i64 %.19.i4, label %B652 [
+  %.429 = tail call i64 @event(ptr nonnull %arg.r, double %t.2.0, double %t1.2.176)
+  switch i64 %.429, label %B652 [
     i64 0, label %B684
     i64 7, label %B682
   ]
 
 B652:
   store i64 0, ptr %.465, align 8
-  %.469 = call i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr nonnull %.465, ptr nonnull %excinfo.7, ptr nonnull %arg.r, i64 %.19.i4)
+  %.469 = call i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr nonnull %.465, ptr nonnull %excinfo.7, ptr nonnull %arg.r, i64 %.429)
   %.479 = load i64, ptr %.465, align 8
   %cond7 = icmp eq i32 %.469, 0
   br i1 %cond7, label %B682, label %B652.if.if, !prof !24
 
 B682:
-  %"$phi682.0.2.0" = phi i64 [ %.479, %B652 ], [ %.19.i4, %event.exit ]
+  %"$phi682.0.2.0" = phi i64 [ %.479, %B652 ], [ %.429, %B580 ]
   store i64 %"$phi682.0.2.0", ptr %retptr, align 8
   br label %common.ret
 
@@ -6856,15 +6197,7 @@ B892:
   %.627 = inttoptr i64 %.626 to ptr
   %.630 = load i64, ptr %.227, align 8
   %.631 = inttoptr i64 %.630 to ptr
-  %.10.i7 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i5, ptr nonnull %excinfo.i6, ptr nonnull %arg.r, double %t1.2.176, ptr readonly %.627, ptr readonly %.631) #0
-  %cond.i8 = icmp eq i32 %.10.i7, 0
-  br i1 %cond.i8, label %node.exit, label %entry.if.i9, !prof !24
-
-entry.if.i9:
-  tail call void @llvm.trap()
-  unreachable
-
-node.exit:
+  %.634 = tail call ptr @node(ptr nonnull %arg.r, double %t1.2.176, ptr %.627, ptr %.631)
   br label %B948
 
 B948:
@@ -6876,33 +6209,25 @@ B962:
   br label %common.ret
 
 B230.endif:
-  %.223 = getelementptr i8, ptr %arg.r, i64 544
+  %.223 = getelementptr i8, ptr %arg.r, i64 664
   %.224 = load i64, ptr %.223, align 8
-  %.227 = getelementptr i8, ptr %arg.r, i64 552
+  %.227 = getelementptr i8, ptr %arg.r, i64 672
   %.228 = load i64, ptr %.227, align 8
-  %.17.i = getelementptr i8, ptr %arg.r, i64 384
-  %.18.i = load i64, ptr %.17.i, align 8, !noalias !219
+  %.17.i = getelementptr i8, ptr %arg.r, i64 400
+  %.18.i = load i64, ptr %.17.i, align 8, !noalias !179
   %.19.i = icmp sgt i64 %.18.i, 0
   br i1 %.19.i, label %B48.i, label %B26.i
 
 B26.i:
   %.22.i = getelementptr i8, ptr %arg.r, i64 64
-  %.23.i = load i64, ptr %.22.i, align 8, !noalias !219
+  %.23.i = load i64, ptr %.22.i, align 8, !noalias !179
   %.24.not.i = icmp eq i64 %.23.i, 0
   br i1 %.24.not.i, label %B230.endif.endif, label %B48.i
 
 B48.i:
   %1 = inttoptr i64 %.228 to ptr
   %2 = inttoptr i64 %.224 to ptr
-  %.10.i13 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i11, ptr nonnull %excinfo.i12, ptr nonnull %arg.r, double %.13, ptr readonly %2, ptr readonly %1) #0, !noalias !219
-  %cond.i14 = icmp eq i32 %.10.i13, 0
-  br i1 %cond.i14, label %node.exit17, label %entry.if.i15, !prof !24
-
-entry.if.i15:
-  tail call void @llvm.trap(), !noalias !219
-  unreachable
-
-node.exit17:
+  %.30.i = tail call ptr @node(ptr nonnull %arg.r, double %.13, ptr %2, ptr %1), !noalias !179
   br label %B230.endif.endif
 
 B230.if.if:
@@ -6916,7 +6241,7 @@ B230.endif.endif:
 B316.preheader:
   %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
   %sunkaddr47 = getelementptr i8, ptr %arg.r, i64 64
-  %sunkaddr43 = getelementptr i8, ptr %arg.r, i64 192
+  %sunkaddr43 = getelementptr i8, ptr %arg.r, i64 208
   br label %B316
 
 B652.if.if:
@@ -6949,19 +6274,13 @@ declare double @nextafter(double, double) local_unnamed_addr #4
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels5beginB3v61B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t, double %arg.h) local_unnamed_addr {
 B0:
-  %.6.i7 = alloca ptr, align 8
-  %excinfo.i8 = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i3 = alloca ptr, align 8
-  %.7.i1 = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.14 = getelementptr i8, ptr %arg.r, i64 144
   %.15 = load i64, ptr %.14, align 8
   %.16 = icmp eq i64 %.15, 1
   br i1 %.16, label %B36.endif, label %B146
 
 B146:
-  %.68 = phi i64 [ %.68.pr, %remainder.exit ], [ %.15, %B0 ]
+  %.68 = phi i64 [ %.68.pr, %B36.endif ], [ %.15, %B0 ]
   switch i64 %.68, label %B314 [
     i64 0, label %B178
     i64 1, label %B292
@@ -6974,102 +6293,74 @@ B178:
   br i1 %.74, label %B200, label %B314
 
 B200:
-  %.77 = getelementptr i8, ptr %arg.r, i64 544
+  %.77 = getelementptr i8, ptr %arg.r, i64 664
   %.78 = load i64, ptr %.77, align 8
   %.79 = inttoptr i64 %.78 to ptr
-  %.81 = getelementptr i8, ptr %arg.r, i64 552
+  %.81 = getelementptr i8, ptr %arg.r, i64 672
   %.82 = load i64, ptr %.81, align 8
   %.83 = inttoptr i64 %.82 to ptr
-  %.11.i2 = call i32 @_ZN18biped_adrc_kernels7laggingB3v20B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2ad10float64_2a(ptr nonnull %.7.i1, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %arg.t, ptr readonly %.79, double %arg.h, ptr %.83) #0
-  %cond.i = icmp eq i32 %.11.i2, 0
-  br i1 %cond.i, label %lagging.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-lagging.exit:
+  %.87 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %.79, double %arg.h, ptr %.83)
   br label %common.ret
 
 B292:
-  %.101 = getelementptr i8, ptr %arg.r, i64 384
+  %.101 = getelementptr i8, ptr %arg.r, i64 400
   %.102 = load i64, ptr %.101, align 8
   %.103 = icmp sgt i64 %.102, 0
   br i1 %.103, label %B314, label %common.ret
 
 B314:
-  %.106 = getelementptr i8, ptr %arg.r, i64 416
+  %.106 = getelementptr i8, ptr %arg.r, i64 440
   %.107 = load i64, ptr %.106, align 8
   %.108 = icmp eq i64 %.107, 0
   br i1 %.108, label %B336, label %common.ret
 
 B336:
-  %.111 = getelementptr i8, ptr %arg.r, i64 544
+  %.111 = getelementptr i8, ptr %arg.r, i64 664
   %.112 = load i64, ptr %.111, align 8
   %.113 = inttoptr i64 %.112 to ptr
-  %.115 = getelementptr i8, ptr %arg.r, i64 552
+  %.115 = getelementptr i8, ptr %arg.r, i64 672
   %.116 = load i64, ptr %.115, align 8
   %.117 = inttoptr i64 %.116 to ptr
-  %.10.i4 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %arg.t, ptr readonly %.113, ptr %.117) #0
-  %cond.i5 = icmp eq i32 %.10.i4, 0
-  br i1 %cond.i5, label %flow.exit, label %entry.if.i6, !prof !24
-
-entry.if.i6:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit:
+  %.120 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t, ptr %.113, ptr %.117)
   br label %common.ret
 
 common.ret:
-  %.127 = getelementptr i8, ptr %arg.r, i64 416
+  %.127 = getelementptr i8, ptr %arg.r, i64 440
   store i64 0, ptr %.127, align 8
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
 B36.endif:
-  %.20 = getelementptr i8, ptr %arg.r, i64 544
+  %.20 = getelementptr i8, ptr %arg.r, i64 664
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
-  %.24 = getelementptr i8, ptr %arg.r, i64 648
+  %.24 = getelementptr i8, ptr %arg.r, i64 768
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
   %.7.i = getelementptr i8, ptr %arg.r, i64 32
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !222
-  %.9.i = getelementptr i8, ptr %arg.r, i64 256
-  %.10.i = load i64, ptr %.9.i, align 8, !noalias !222
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !182
+  %.9.i = getelementptr i8, ptr %arg.r, i64 272
+  %.10.i = load i64, ptr %.9.i, align 8, !noalias !182
   %.11.i = inttoptr i64 %.10.i to ptr
   %.12.i = inttoptr i64 %.8.i to ptr
-  tail call void %.12.i(ptr %.11.i, ptr %.22, ptr %.26), !noalias !222
+  tail call void %.12.i(ptr %.11.i, ptr %.22, ptr %.26), !noalias !182
   %.56 = load i64, ptr %.24, align 8
   %.57 = inttoptr i64 %.56 to ptr
-  %.59 = getelementptr i8, ptr %arg.r, i64 704
+  %.59 = getelementptr i8, ptr %arg.r, i64 824
   %.60 = load i64, ptr %.59, align 8
   %.61 = inttoptr i64 %.60 to ptr
-  %.10.i9 = call i32 @_ZN18biped_adrc_kernels9remainderB2v9B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i7, ptr nonnull %excinfo.i8, ptr nonnull %arg.r, double %arg.t, ptr %.57, ptr %.61) #0
-  %cond.i10 = icmp eq i32 %.10.i9, 0
-  br i1 %cond.i10, label %remainder.exit, label %entry.if.i11, !prof !24
-
-entry.if.i11:
-  tail call void @llvm.trap()
-  unreachable
-
-remainder.exit:
+  %.64 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t, ptr %.57, ptr %.61)
   %.68.pr = load i64, ptr %.14, align 8
   br label %B146
 }
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.code) local_unnamed_addr {
 B0:
-  %.6.i2 = alloca ptr, align 8
-  %excinfo.i3 = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.107 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 448
+  %.11 = getelementptr i8, ptr %arg.r, i64 496
   %.13 = load double, ptr %.11, align 8
-  %.19 = getelementptr i8, ptr %arg.r, i64 616
+  %.19 = getelementptr i8, ptr %arg.r, i64 736
   %.20 = load i64, ptr %.19, align 8
   %.23 = getelementptr i8, ptr %arg.r, i64 80
   %.24 = load i64, ptr %.23, align 8
@@ -7105,13 +6396,13 @@ vector.body.i:
   %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %12, %vector.body.i ]
   %sunkaddr45 = shl i64 %index.i, 3
   %sunkaddr46 = getelementptr i8, ptr %0, i64 %sunkaddr45
-  %wide.load.i = load <4 x double>, ptr %sunkaddr46, align 8, !noalias !225
+  %wide.load.i = load <4 x double>, ptr %sunkaddr46, align 8, !noalias !185
   %sunkaddr50 = getelementptr i8, ptr %sunkaddr46, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr50, align 8, !noalias !225
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr50, align 8, !noalias !185
   %sunkaddr54 = getelementptr i8, ptr %sunkaddr46, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr54, align 8, !noalias !225
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr54, align 8, !noalias !185
   %scevgep31 = getelementptr i8, ptr %sunkaddr46, i64 96
-  %wide.load7.i = load <4 x double>, ptr %scevgep31, align 8, !noalias !225
+  %wide.load7.i = load <4 x double>, ptr %scevgep31, align 8, !noalias !185
   %1 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
   %2 = fcmp one <4 x double> %1, splat (double 0x7FF0000000000000)
   %3 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
@@ -7126,7 +6417,7 @@ vector.body.i:
   %12 = and <4 x i1> %vec.phi4.i, %8
   %index.next.i = add nuw nsw i64 %index.i, 16
   %13 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %13, label %middle.block.i, label %vector.body.i, !llvm.loop !228
+  br i1 %13, label %middle.block.i, label %vector.body.i, !llvm.loop !188
 
 middle.block.i:
   %bin.rdx.i = and <4 x i1> %9, %10
@@ -7155,13 +6446,13 @@ vec.epilog.vector.body.i:
   %vec.phi13.i = phi <4 x i1> [ %17, %vec.epilog.ph.i ], [ %21, %vec.epilog.vector.body.i ]
   %18 = shl i64 %index12.i, 3
   %scevgep28.i = getelementptr i8, ptr %.pre-phi14, i64 %18
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !225
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !185
   %19 = tail call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
   %20 = fcmp one <4 x double> %19, splat (double 0x7FF0000000000000)
   %21 = and <4 x i1> %vec.phi13.i, %20
   %index.next15.i = add nuw i64 %index12.i, 4
   %22 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %22, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !229
+  br i1 %22, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !189
 
 vec.epilog.middle.block.i:
   %23 = bitcast <4 x i1> %21 to i4
@@ -7181,12 +6472,12 @@ B40.i:
   %.105.i = add nuw nsw i64 %.983941.i, 1
   %25 = shl i64 %.983941.i, 3
   %scevgep.i = getelementptr i8, ptr %.pre-phi, i64 %25
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !225
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !185
   %26 = tail call double @llvm.fabs.f64(double %.132.i)
   %27 = fcmp one double %26, 0x7FF0000000000000
   %.136.i = and i1 %good.2.043.i, %27
   %exitcond.not.i = icmp eq i64 %.24, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !230
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !190
 
 _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
   %.136.lcssa.i = phi i1 [ %24, %vec.epilog.middle.block.i ], [ %15, %middle.block.i ], [ %.136.i, %B40.i ]
@@ -7194,7 +6485,7 @@ _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2f
 
 B100:
   %28 = inttoptr i64 %.20 to ptr
-  %.101 = getelementptr i8, ptr %arg.r, i64 544
+  %.101 = getelementptr i8, ptr %arg.r, i64 664
   %.102 = load i64, ptr %.101, align 8
   %.103 = inttoptr i64 %.102 to ptr
   %.111 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.107, ptr nonnull %excinfo.3, ptr %28, ptr %.103, i64 %.24)
@@ -7212,7 +6503,7 @@ B200:
   br label %common.ret
 
 B204:
-  %.153 = getelementptr i8, ptr %arg.r, i64 384
+  %.153 = getelementptr i8, ptr %arg.r, i64 400
   %.154 = load i64, ptr %.153, align 8
   %.155 = icmp sgt i64 %.154, 0
   br i1 %.155, label %B308, label %B308.thread
@@ -7220,28 +6511,20 @@ B204:
 B308.thread:
   %.1974 = load i64, ptr %.101, align 8
   %.1985 = inttoptr i64 %.1974 to ptr
-  %.2006 = getelementptr i8, ptr %arg.r, i64 552
+  %.2006 = getelementptr i8, ptr %arg.r, i64 672
   %.2017 = load i64, ptr %.2006, align 8
   %.2028 = inttoptr i64 %.2017 to ptr
   br label %B26.i
 
 B308:
-  %.15.i = tail call double @nextafter(double %.13, double 0xFFF0000000000000), !noalias !231
+  %.15.i = tail call double @nextafter(double %.13, double 0xFFF0000000000000), !noalias !191
   %.185 = load i64, ptr %.101, align 8
   %.186 = inttoptr i64 %.185 to ptr
-  %.188 = getelementptr i8, ptr %arg.r, i64 552
+  %.188 = getelementptr i8, ptr %arg.r, i64 672
   %.189 = load i64, ptr %.188, align 8
   %.190 = inttoptr i64 %.189 to ptr
-  %.10.i1 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.15.i, ptr readonly %.186, ptr %.190) #0
-  %cond.i = icmp eq i32 %.10.i1, 0
-  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit:
-  %.18.i.pr = load i64, ptr %.153, align 8, !noalias !234
+  %.192 = tail call ptr @flow(ptr nonnull %arg.r, double %.15.i, ptr %.186, ptr %.190)
+  %.18.i.pr = load i64, ptr %.153, align 8, !noalias !194
   %.197 = load i64, ptr %.101, align 8
   %.198 = inttoptr i64 %.197 to ptr
   %.201 = load i64, ptr %.188, align 8
@@ -7250,40 +6533,31 @@ flow.exit:
   br i1 %.19.i, label %B48.i, label %B26.i
 
 B26.i:
-  %.20212 = phi ptr [ %.2028, %B308.thread ], [ %.202, %flow.exit ]
-  %.19810 = phi ptr [ %.1985, %B308.thread ], [ %.198, %flow.exit ]
+  %.20212 = phi ptr [ %.2028, %B308.thread ], [ %.202, %B308 ]
+  %.19810 = phi ptr [ %.1985, %B308.thread ], [ %.198, %B308 ]
   %.22.i = getelementptr i8, ptr %arg.r, i64 64
-  %.23.i = load i64, ptr %.22.i, align 8, !noalias !234
+  %.23.i = load i64, ptr %.22.i, align 8, !noalias !194
   %.24.not.i = icmp eq i64 %.23.i, 0
   br i1 %.24.not.i, label %B308.endif, label %B48.i
 
 B48.i:
-  %.20213 = phi ptr [ %.20212, %B26.i ], [ %.202, %flow.exit ]
-  %.19811 = phi ptr [ %.19810, %B26.i ], [ %.198, %flow.exit ]
-  store ptr null, ptr %.6.i2, align 8, !noalias !234
-  %.10.i4 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i2, ptr nonnull %excinfo.i3, ptr nonnull %arg.r, double %.13, ptr readonly %.19811, ptr readonly %.20213) #0, !noalias !234
-  %cond.i5 = icmp eq i32 %.10.i4, 0
-  br i1 %cond.i5, label %node.exit, label %entry.if.i6, !prof !24
-
-entry.if.i6:
-  tail call void @llvm.trap(), !noalias !234
-  unreachable
-
-node.exit:
+  %.20213 = phi ptr [ %.20212, %B26.i ], [ %.202, %B308 ]
+  %.19811 = phi ptr [ %.19810, %B26.i ], [ %.198, %B308 ]
+  %.30.i = tail call ptr @node(ptr nonnull %arg.r, double %.13, ptr %.19811, ptr %.20213), !noalias !194
   br label %B308.endif
 
 B70.endif:
-  %.8.i = getelementptr i8, ptr %arg.r, i64 424
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !237
+  %.8.i = getelementptr i8, ptr %arg.r, i64 472
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !197
   %.10.i = icmp eq i64 %.9.i, 0
   %spec.select.i = select i1 %.10.i, i64 4, i64 %.9.i
   store i64 %spec.select.i, ptr %retptr, align 8
   br label %common.ret
 
 B100.endif:
-  %.133 = getelementptr i8, ptr %arg.r, i64 328
+  %.133 = getelementptr i8, ptr %arg.r, i64 344
   store double %.13, ptr %.133, align 8
-  %.137 = getelementptr i8, ptr %arg.r, i64 360
+  %.137 = getelementptr i8, ptr %arg.r, i64 376
   %.139 = load double, ptr %.137, align 8
   %.141 = fcmp oeq double %.13, %.139
   br i1 %.141, label %B200, label %B204
@@ -7299,20 +6573,14 @@ B308.endif:
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels5nodesB3v67B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t0, double %arg.t1) local_unnamed_addr {
 B0:
-  %.6.i9 = alloca ptr, align 8
-  %excinfo.i10 = alloca ptr, align 8
-  %.6.i3 = alloca ptr, align 8
-  %excinfo.i4 = alloca ptr, align 8
-  %.6.i1 = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
   %.5.i = alloca ptr, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 384
+  %.14 = getelementptr i8, ptr %arg.r, i64 400
   %.15 = load i64, ptr %.14, align 8
   %.16 = icmp eq i64 %.15, 1
   br i1 %.16, label %B60.endif, label %common.ret
 
 B96:
-  %.1464648 = phi i64 [ 1, %B96.lr.ph ], [ %.153, %node.exit ]
+  %.1464648 = phi i64 [ 1, %B96.lr.ph ], [ %.153, %B96 ]
   %.153 = add nuw nsw i64 %.1464648, 1
   %.181 = uitofp nneg i64 %.1464648 to double
   %.182 = fmul double %.6.i, %.181
@@ -7323,47 +6591,23 @@ B96:
   %.197 = inttoptr i64 %.196 to ptr
   %.200 = load i64, ptr %sunkaddr3, align 8
   %.201 = inttoptr i64 %.200 to ptr
-  %.10.i2 = call i32 @_ZN18biped_adrc_kernels4flowB2v3B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i1, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.190, ptr readonly %.197, ptr %.201) #0
-  %cond.i = icmp eq i32 %.10.i2, 0
-  br i1 %cond.i, label %flow.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-flow.exit:
+  %.203 = tail call ptr @flow(ptr nonnull %arg.r, double %.190, ptr %.197, ptr %.201)
   %.206 = load i64, ptr %sunkaddr2, align 8
   %.207 = inttoptr i64 %.206 to ptr
   %.210 = load i64, ptr %sunkaddr3, align 8
   %.211 = inttoptr i64 %.210 to ptr
-  %.10.i5 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i3, ptr nonnull %excinfo.i4, ptr nonnull %arg.r, double %.190, ptr readonly %.207, ptr readonly %.211) #0
-  %cond.i6 = icmp eq i32 %.10.i5, 0
-  br i1 %cond.i6, label %node.exit, label %entry.if.i7, !prof !24
-
-entry.if.i7:
-  tail call void @llvm.trap()
-  unreachable
-
-node.exit:
+  %.213 = tail call ptr @node(ptr nonnull %arg.r, double %.190, ptr %.207, ptr %.211)
   %exitcond.not = icmp eq i64 %.153, %.13.i
   br i1 %exitcond.not, label %common.ret, label %B96
 
 common.ret:
-  %.224 = getelementptr i8, ptr %arg.r, i64 560
+  %.224 = getelementptr i8, ptr %arg.r, i64 680
   %.225 = load i64, ptr %.224, align 8
   %.226 = inttoptr i64 %.225 to ptr
-  %.228 = getelementptr i8, ptr %arg.r, i64 568
+  %.228 = getelementptr i8, ptr %arg.r, i64 688
   %.229 = load i64, ptr %.228, align 8
   %.230 = inttoptr i64 %.229 to ptr
-  %.10.i11 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i9, ptr nonnull %excinfo.i10, ptr nonnull %arg.r, double %arg.t1, ptr readonly %.226, ptr readonly %.230) #0
-  %cond.i12 = icmp eq i32 %.10.i11, 0
-  br i1 %cond.i12, label %node.exit15, label %entry.if.i13, !prof !24
-
-entry.if.i13:
-  tail call void @llvm.trap()
-  unreachable
-
-node.exit15:
+  %.233 = tail call ptr @node(ptr nonnull %arg.r, double %arg.t1, ptr %.226, ptr %.230)
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
@@ -7378,8 +6622,8 @@ B60.endif:
 
 B96.lr.ph:
   %.184 = uitofp nneg i64 %.13.i to double
-  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 616
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 624
+  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 736
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 744
   br label %B96
 }
 
@@ -7394,10 +6638,10 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.136 = alloca ptr, align 8
   %excinfo.4 = alloca ptr, align 8
-  %.9 = getelementptr i8, ptr %arg.r, i64 560
+  %.9 = getelementptr i8, ptr %arg.r, i64 680
   %.10 = load i64, ptr %.9, align 8
   %.11 = inttoptr i64 %.10 to ptr
-  %.13 = getelementptr i8, ptr %arg.r, i64 544
+  %.13 = getelementptr i8, ptr %arg.r, i64 664
   %.14 = load i64, ptr %.13, align 8
   %.15 = inttoptr i64 %.14 to ptr
   %.17 = getelementptr i8, ptr %arg.r, i64 96
@@ -7409,10 +6653,10 @@ B0:
   ], !prof !8
 
 B164:
-  %.88 = getelementptr i8, ptr %arg.r, i64 656
+  %.88 = getelementptr i8, ptr %arg.r, i64 776
   %.89 = load i64, ptr %.88, align 8
   %.90 = inttoptr i64 %.89 to ptr
-  %.92 = getelementptr i8, ptr %arg.r, i64 648
+  %.92 = getelementptr i8, ptr %arg.r, i64 768
   %.93 = load i64, ptr %.92, align 8
   %.94 = inttoptr i64 %.93 to ptr
   %.96 = getelementptr i8, ptr %arg.r, i64 80
@@ -7430,10 +6674,10 @@ common.ret:
   ret i32 %common.ret.op
 
 B0.endif:
-  %.47 = getelementptr i8, ptr %arg.r, i64 568
+  %.47 = getelementptr i8, ptr %arg.r, i64 688
   %.48 = load i64, ptr %.47, align 8
   %.49 = inttoptr i64 %.48 to ptr
-  %.51 = getelementptr i8, ptr %arg.r, i64 552
+  %.51 = getelementptr i8, ptr %arg.r, i64 672
   %.52 = load i64, ptr %.51, align 8
   %.53 = inttoptr i64 %.52 to ptr
   %.56 = load i64, ptr %.17, align 8
@@ -7450,10 +6694,10 @@ B0.endif.endif:
   br i1 %.84, label %B164, label %common.ret
 
 B164.endif:
-  %.124 = getelementptr i8, ptr %arg.r, i64 712
+  %.124 = getelementptr i8, ptr %arg.r, i64 832
   %.125 = load i64, ptr %.124, align 8
   %.126 = inttoptr i64 %.125 to ptr
-  %.128 = getelementptr i8, ptr %arg.r, i64 704
+  %.128 = getelementptr i8, ptr %arg.r, i64 824
   %.129 = load i64, ptr %.128, align 8
   %.130 = inttoptr i64 %.129 to ptr
   %.132 = getelementptr i8, ptr %arg.r, i64 120
@@ -7469,7 +6713,7 @@ B164.endif.if.if:
 }
 
 
-define i64 @through(ptr initializes((440, 448)) %.1, double %.2) local_unnamed_addr #0 {
+define i64 @through(ptr initializes((488, 496)) %.1, double %.2) local_unnamed_addr #0 {
 entry:
   %.4 = alloca i64, align 8
   store i64 0, ptr %.4, align 8
@@ -7488,23 +6732,15 @@ common.ret:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((424, 440)) %arg.r) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((472, 488)) %arg.r) local_unnamed_addr #0 {
 B0:
-  %.6.i = alloca ptr, align 8
-  %excinfo.i9 = alloca ptr, align 8
-  %.4.i = alloca i64, align 8
-  %excinfo.i4 = alloca ptr, align 8
-  %.3.i = alloca i64, align 8
-  %excinfo.i = alloca ptr, align 8
-  %.36.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
   %.33.i = alloca double, align 8
   %excinfo.1.i = alloca ptr, align 8
   %.18 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.8 = getelementptr i8, ptr %arg.r, i64 392
+  %.8 = getelementptr i8, ptr %arg.r, i64 408
   %.9 = load i64, ptr %.8, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 424
+  %.14 = getelementptr i8, ptr %arg.r, i64 472
   store i64 0, ptr %.14, align 8
   %.22 = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.18, ptr nonnull %excinfo.1, ptr %arg.r)
   switch i32 %.22, label %B0.if.if [
@@ -7513,138 +6749,78 @@ B0:
   ], !prof !8
 
 B86:
-  %.8.i = getelementptr i8, ptr %arg.r, i64 328
-  %.10.i = load double, ptr %.8.i, align 8, !noalias !240
-  %.12.i = getelementptr i8, ptr %arg.r, i64 360
-  store double %.10.i, ptr %.12.i, align 8, !noalias !240
-  %.20.i = getelementptr i8, ptr %arg.r, i64 544
-  %.21.i = load i64, ptr %.20.i, align 8, !noalias !240
+  %.8.i = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i = load double, ptr %.8.i, align 8, !noalias !200
+  %.12.i = getelementptr i8, ptr %arg.r, i64 376
+  store double %.10.i, ptr %.12.i, align 8, !noalias !200
+  %.20.i = getelementptr i8, ptr %arg.r, i64 664
+  %.21.i = load i64, ptr %.20.i, align 8, !noalias !200
   %.22.i = inttoptr i64 %.21.i to ptr
-  %.24.i = getelementptr i8, ptr %arg.r, i64 520
-  %.25.i = load i64, ptr %.24.i, align 8, !noalias !240
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 344
-  %.10.i.i = load double, ptr %.8.i.i, align 8, !noalias !243
-  %.11.i.i = getelementptr i8, ptr %arg.r, i64 432
-  %.13.i.i = load double, ptr %.11.i.i, align 8, !noalias !243
-  %.14.i.i = getelementptr i8, ptr %arg.r, i64 488
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  store double %.10.i, ptr %.16.i.i, align 8, !noalias !243
-  %.20.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
-  %.21.i.i = inttoptr i64 %.20.i.i to ptr
-  %.22.i.i = getelementptr i8, ptr %.21.i.i, i64 8
-  store double %.10.i.i, ptr %.22.i.i, align 8, !noalias !243
-  %.25.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
-  %.26.i.i = inttoptr i64 %.25.i.i to ptr
-  %.27.i.i = getelementptr i8, ptr %.26.i.i, i64 16
-  store double %.13.i.i, ptr %.27.i.i, align 8, !noalias !243
-  %.31.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
-  %.32.i.i = inttoptr i64 %.31.i.i to ptr
-  %.33.i.i = getelementptr i8, ptr %.32.i.i, i64 24
-  %.34.i.i = getelementptr i8, ptr %arg.r, i64 72
-  %.35.i.i = load i64, ptr %.34.i.i, align 8, !noalias !243
-  %.40.i.i = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.36.i.i, ptr nonnull %excinfo.1.i.i, ptr readonly %.22.i, ptr %.33.i.i, i64 %.35.i.i), !noalias !243
-  switch i32 %.40.i.i, label %entry.if.i [
-    i32 -2, label %watch.exit
-    i32 0, label %watch.exit
-  ], !prof !8
-
-entry.if.i:
-  call void @llvm.trap(), !noalias !240
-  unreachable
-
-watch.exit:
+  %.24.i = getelementptr i8, ptr %arg.r, i64 640
+  %.25.i = load i64, ptr %.24.i, align 8, !noalias !200
   %.26.i = inttoptr i64 %.25.i to ptr
-  %.62.i.i = getelementptr i8, ptr %arg.r, i64 24
-  %.63.i.i = load i64, ptr %.62.i.i, align 8, !noalias !243
-  %.64.i.i = getelementptr i8, ptr %arg.r, i64 256
-  %.65.i.i = load i64, ptr %.64.i.i, align 8, !noalias !243
-  %.66.i.i = inttoptr i64 %.65.i.i to ptr
-  %.68.i.i = load i64, ptr %.14.i.i, align 8, !noalias !243
-  %.69.i.i = inttoptr i64 %.68.i.i to ptr
-  %.70.i.i = inttoptr i64 %.63.i.i to ptr
-  call void %.70.i.i(ptr %.66.i.i, ptr %.69.i.i, ptr %.26.i) #0, !noalias !243
-  %.30.i = getelementptr i8, ptr %arg.r, i64 368
-  %.31.i = load i64, ptr %.30.i, align 8, !noalias !240
+  %.28.i = tail call ptr @watch(ptr nonnull %arg.r, double %.10.i, ptr %.22.i, ptr %.26.i), !noalias !200
+  %.30.i = getelementptr i8, ptr %arg.r, i64 384
+  %.31.i = load i64, ptr %.30.i, align 8, !noalias !200
   %.32.i = icmp sgt i64 %.31.i, -1
   br i1 %.32.i, label %B116.i, label %_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
 
 B116.i:
-  %.36.i = load i64, ptr %.24.i, align 8, !noalias !240
+  %.36.i = load i64, ptr %.24.i, align 8, !noalias !200
   %.37.i = inttoptr i64 %.36.i to ptr
   %.41.i = getelementptr double, ptr %.37.i, i64 %.31.i
-  store double 0.000000e+00, ptr %.41.i, align 8, !noalias !240
+  store double 0.000000e+00, ptr %.41.i, align 8, !noalias !200
   br label %_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
 
 _ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit:
-  store i64 1, ptr %.45, align 8, !noalias !240
+  store i64 1, ptr %.45, align 8, !noalias !200
   br label %B116
 
 B116:
-  store ptr null, ptr %excinfo.1.i, align 8, !noalias !247
-  %.8.i1 = getelementptr i8, ptr %arg.r, i64 328
-  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !247
-  %.12.i3 = getelementptr i8, ptr %arg.r, i64 352
-  %.14.i = load double, ptr %.12.i3, align 8, !noalias !247
+  store ptr null, ptr %excinfo.1.i, align 8, !noalias !203
+  %.8.i1 = getelementptr i8, ptr %arg.r, i64 344
+  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !203
+  %.12.i3 = getelementptr i8, ptr %arg.r, i64 368
+  %.14.i = load double, ptr %.12.i3, align 8, !noalias !203
   %.15.i = fcmp olt double %.10.i2, %.14.i
   br i1 %.15.i, label %B36.i.preheader, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
 B36.i.preheader:
-  %sunkaddr30 = getelementptr i8, ptr %arg.r, i64 440
+  %sunkaddr30 = getelementptr i8, ptr %arg.r, i64 488
   br label %B36.i
 
 B36.i:
-  store double 0x7FF0000000000000, ptr %sunkaddr30, align 8, !noalias !247
-  store i64 0, ptr %.3.i, align 8, !noalias !247
-  %.7.i = call i32 @_ZN18biped_adrc_kernels3dueB3v13B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r) #0, !noalias !247
-  %cond.i1 = icmp eq i32 %.7.i, 0
-  br i1 %cond.i1, label %due.exit, label %entry.if.i2, !prof !24
-
-entry.if.i2:
-  tail call void @llvm.trap(), !noalias !247
-  unreachable
-
-due.exit:
-  %.17.i3 = load i64, ptr %.3.i, align 8, !noalias !247
-  %.29.i = icmp eq i64 %.17.i3, 0
+  store double 0x7FF0000000000000, ptr %sunkaddr30, align 8, !noalias !203
+  %.25.i4 = tail call i64 @due(ptr nonnull %arg.r), !noalias !203
+  %.29.i = icmp eq i64 %.25.i4, 0
   br i1 %.29.i, label %B112.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
 B112.i:
-  store double 0.000000e+00, ptr %.33.i, align 8, !noalias !247
-  %.37.i5 = call i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.33.i, ptr nonnull %excinfo.1.i, ptr nonnull %arg.r), !noalias !247
+  store double 0.000000e+00, ptr %.33.i, align 8, !noalias !203
+  %.37.i5 = call i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.33.i, ptr nonnull %excinfo.1.i, ptr nonnull %arg.r), !noalias !203
   %cond.i = icmp eq i32 %.37.i5, 0
   br i1 %cond.i, label %B170.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit, !prof !24
 
 B170.i:
-  %.47.i = load double, ptr %.33.i, align 8, !noalias !247
-  store i64 0, ptr %.4.i, align 8, !noalias !247
-  %.8.i5 = call i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr nonnull %.4.i, ptr nonnull %excinfo.i4, ptr nonnull %arg.r, double %.47.i) #0, !noalias !247
-  %cond.i6 = icmp eq i32 %.8.i5, 0
-  br i1 %cond.i6, label %through.exit, label %entry.if.i7, !prof !24
-
-entry.if.i7:
-  tail call void @llvm.trap(), !noalias !247
-  unreachable
-
-through.exit:
-  %.18.i8 = load i64, ptr %.4.i, align 8, !noalias !247
-  %.65.not.i = icmp eq i64 %.18.i8, 0
+  %.47.i = load double, ptr %.33.i, align 8, !noalias !203
+  %.60.i = tail call i64 @through(ptr nonnull %arg.r, double %.47.i), !noalias !203
+  %.65.not.i = icmp eq i64 %.60.i, 0
   br i1 %.65.not.i, label %B186.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
 B186.i:
-  %.79.i = load double, ptr %.8.i1, align 8, !noalias !247
-  %.83.i = load double, ptr %.12.i3, align 8, !noalias !247
+  %.79.i = load double, ptr %.8.i1, align 8, !noalias !203
+  %.83.i = load double, ptr %.12.i3, align 8, !noalias !203
   %.84.i = fcmp olt double %.79.i, %.83.i
   br i1 %.84.i, label %B36.i, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
 _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread:
-  %.78.0.ph = phi i64 [ 0, %B116 ], [ %.17.i3, %due.exit ], [ %.18.i8, %through.exit ], [ 0, %B186.i ]
+  %.78.0.ph = phi i64 [ 0, %B116 ], [ %.25.i4, %B36.i ], [ %.60.i, %B170.i ], [ 0, %B186.i ]
   %.107 = load i64, ptr %.8, align 8
   %.109 = icmp eq i64 %.107, %.9
   br i1 %.109, label %B168.endif, label %B300
 
 _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit:
-  %.38.i = load ptr, ptr %excinfo.1.i, align 8, !noalias !247
+  %.38.i = load ptr, ptr %excinfo.1.i, align 8, !noalias !203
   %.90 = icmp sgt i32 %.37.i5, 0
   %.91 = select i1 %.90, ptr %.38.i, ptr undef
   store ptr %.91, ptr %excinfo, align 8
@@ -7702,7 +6878,7 @@ B234.loopexit.unr-lcssa:
 
 B210.epil.preheader:
   %.2014749.epil.init = phi i64 [ 0, %B210.lr.ph ], [ %unroll_iter, %B234.loopexit.unr-lcssa ]
-  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 552
+  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 672
   br label %B210.epil
 
 B210.epil:
@@ -7716,37 +6892,29 @@ B210.epil:
   store double 0.000000e+00, ptr %scevgep, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B234, label %B210.epil, !llvm.loop !251
+  br i1 %epil.iter.cmp.not, label %B234, label %B210.epil, !llvm.loop !207
 
 B234:
   %.248 = load double, ptr %.8.i1, align 8
-  %.250 = getelementptr i8, ptr %arg.r, i64 544
+  %.250 = getelementptr i8, ptr %arg.r, i64 664
   %.251 = load i64, ptr %.250, align 8
-  %.254 = getelementptr i8, ptr %arg.r, i64 552
+  %.254 = getelementptr i8, ptr %arg.r, i64 672
   %.255 = load i64, ptr %.254, align 8
-  %.17.i = getelementptr i8, ptr %arg.r, i64 384
-  %.18.i = load i64, ptr %.17.i, align 8, !noalias !252
+  %.17.i = getelementptr i8, ptr %arg.r, i64 400
+  %.18.i = load i64, ptr %.17.i, align 8, !noalias !208
   %.19.i = icmp sgt i64 %.18.i, 0
   br i1 %.19.i, label %B48.i, label %B26.i
 
 B26.i:
   %.22.i7 = getelementptr i8, ptr %arg.r, i64 64
-  %.23.i = load i64, ptr %.22.i7, align 8, !noalias !252
+  %.23.i = load i64, ptr %.22.i7, align 8, !noalias !208
   %.24.not.i = icmp eq i64 %.23.i, 0
   br i1 %.24.not.i, label %B300, label %B48.i
 
 B48.i:
   %2 = inttoptr i64 %.255 to ptr
   %3 = inttoptr i64 %.251 to ptr
-  %.10.i10 = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i9, ptr nonnull %arg.r, double %.248, ptr readonly %3, ptr readonly %2) #0, !noalias !252
-  %cond.i11 = icmp eq i32 %.10.i10, 0
-  br i1 %cond.i11, label %node.exit, label %entry.if.i12, !prof !24
-
-entry.if.i12:
-  tail call void @llvm.trap(), !noalias !252
-  unreachable
-
-node.exit:
+  %.30.i8 = tail call ptr @node(ptr nonnull %arg.r, double %.248, ptr %3, ptr %2), !noalias !208
   br label %B300
 
 common.ret:
@@ -7758,7 +6926,7 @@ B300:
   br label %common.ret
 
 B0.endif:
-  %.45 = getelementptr i8, ptr %arg.r, i64 376
+  %.45 = getelementptr i8, ptr %arg.r, i64 392
   %.46 = load i64, ptr %.45, align 8
   %.47 = icmp eq i64 %.46, 0
   br i1 %.47, label %B86, label %B116
@@ -7780,24 +6948,24 @@ B210.lr.ph:
 
 B210.lr.ph.new:
   %unroll_iter = and i64 %.115, 9223372036854775800
-  %sunkaddr34 = getelementptr i8, ptr %arg.r, i64 552
+  %sunkaddr34 = getelementptr i8, ptr %arg.r, i64 672
   br label %B210
 }
 
 
-define linkonce_odr i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr initializes((432, 440)) %arg.r) local_unnamed_addr #0 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr initializes((480, 488)) %arg.r) local_unnamed_addr #0 {
 B0.endif:
-  %.8 = getelementptr i8, ptr %arg.r, i64 432
+  %.8 = getelementptr i8, ptr %arg.r, i64 480
   store double 0.000000e+00, ptr %.8, align 8
-  %.12 = getelementptr i8, ptr %arg.r, i64 168
+  %.12 = getelementptr i8, ptr %arg.r, i64 184
   %.13 = load i64, ptr %.12, align 8
   %.9544.not = icmp slt i64 %.13, 1
   br i1 %.9544.not, label %B180, label %B60.lr.ph
 
 B60.lr.ph:
-  %.137 = getelementptr i8, ptr %arg.r, i64 264
+  %.137 = getelementptr i8, ptr %arg.r, i64 280
   %.138 = load i64, ptr %.137, align 8
-  %.145 = getelementptr i8, ptr %arg.r, i64 336
+  %.145 = getelementptr i8, ptr %arg.r, i64 352
   %.147 = load double, ptr %.145, align 8
   %xtraiter = and i64 %.13, 7
   %0 = icmp samesign ult i64 %.13, 8
@@ -7961,7 +7129,7 @@ B178.epil:
   %.15349.epil = phi double [ %.165.epil, %B112.epil ], [ %.153.epil, %B60.epil ]
   %lsr.iv.next = add nuw nsw i64 %lsr.iv, 16
   %epil.iter.cmp.not = icmp eq i64 %3, %lsr.iv.next
-  br i1 %epil.iter.cmp.not, label %B180, label %B60.epil, !llvm.loop !255
+  br i1 %epil.iter.cmp.not, label %B180, label %B60.epil, !llvm.loop !211
 
 B180:
   store ptr null, ptr %retptr, align 8
@@ -7973,9 +7141,9 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB
 B0:
   %.17 = alloca double, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.9 = getelementptr i8, ptr %arg.r, i64 328
+  %.9 = getelementptr i8, ptr %arg.r, i64 344
   %.11 = load double, ptr %.9, align 8
-  %.13 = getelementptr i8, ptr %arg.r, i64 352
+  %.13 = getelementptr i8, ptr %arg.r, i64 368
   %.15 = load double, ptr %.13, align 8
   store double 0.000000e+00, ptr %.17, align 8
   %.21 = call i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.17, ptr nonnull %excinfo.1, ptr %arg.r, double %.11, double %.15)
@@ -7987,7 +7155,7 @@ B0:
 
 B188:
   %first.3.0 = phi double [ %.31, %B0.endif ], [ %.13.i, %B80.endif.endif ]
-  %.156 = getelementptr i8, ptr %arg.r, i64 208
+  %.156 = getelementptr i8, ptr %arg.r, i64 224
   %.158 = load double, ptr %.156, align 8
   %.159 = fcmp ogt double %.158, 0.000000e+00
   br i1 %.159, label %B210.endif, label %B334
@@ -8002,7 +7170,7 @@ B334:
   br label %common.ret
 
 B0.endif:
-  %.51 = getelementptr i8, ptr %arg.r, i64 200
+  %.51 = getelementptr i8, ptr %arg.r, i64 216
   %.53 = load double, ptr %.51, align 8
   %.54 = fcmp ogt double %.53, 0.000000e+00
   br i1 %.54, label %B80.endif, label %B188
@@ -8013,11 +7181,11 @@ B0.if.if:
 
 B80.endif:
   %.8.i = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i = load i64, ptr %.8.i, align 8, !noalias !256
+  %.9.i = load i64, ptr %.8.i, align 8, !noalias !212
   %.10.i = icmp eq i64 %.9.i, 1
-  %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 360, i64 216
+  %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
-  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !256
+  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !212
   %.15.i = fsub double %.11, %"$phi52.0.2.0.i"
   %.20.i = fdiv double %.15.i, %.53
   %.21.i = tail call double @llvm.floor.f64(double %.20.i)
@@ -8046,11 +7214,11 @@ B80.endif.endif:
 
 B210.endif:
   %.8.i1 = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !259
+  %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !215
   %.10.i3 = icmp eq i64 %.9.i2, 1
-  %"$phi52.0.2.0.in.v.i4" = select i1 %.10.i3, i64 360, i64 216
+  %"$phi52.0.2.0.in.v.i4" = select i1 %.10.i3, i64 376, i64 232
   %"$phi52.0.2.0.in.i5" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i4"
-  %"$phi52.0.2.0.i6" = load double, ptr %"$phi52.0.2.0.in.i5", align 8, !noalias !259
+  %"$phi52.0.2.0.i6" = load double, ptr %"$phi52.0.2.0.in.i5", align 8, !noalias !215
   %.196 = fadd double %.158, %"$phi52.0.2.0.i6"
   %.15.i7 = fsub double %.11, %.196
   %.20.i8 = fdiv double %.15.i7, %.53
@@ -8082,15 +7250,15 @@ B210.endif.endif:
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.t, double %arg.last) local_unnamed_addr #0 {
 B0.endif:
-  %.15 = getelementptr i8, ptr %arg.r, i64 176
+  %.15 = getelementptr i8, ptr %arg.r, i64 192
   %.16 = load i64, ptr %.15, align 8
   %.9845.not = icmp slt i64 %.16, 1
   br i1 %.9845.not, label %B236, label %B50.lr.ph
 
 B50.lr.ph:
-  %.137 = getelementptr i8, ptr %arg.r, i64 272
+  %.137 = getelementptr i8, ptr %arg.r, i64 288
   %.138 = load i64, ptr %.137, align 8
-  %.162 = getelementptr i8, ptr %arg.r, i64 336
+  %.162 = getelementptr i8, ptr %arg.r, i64 352
   %.164 = load double, ptr %.162, align 8
   %xtraiter = and i64 %.16, 3
   %0 = icmp samesign ult i64 %.16, 4
@@ -8100,7 +7268,7 @@ B50.lr.ph:
 B50.lr.ph.new:
   %scevgep6 = getelementptr i8, ptr %.pre, i64 56
   %1 = and i64 %.16, 9223372036854775804
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 344
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 360
   br label %B50
 
 B50:
@@ -8142,7 +7310,7 @@ B50.epil.preheader:
   %3 = getelementptr i8, ptr %.pre, i64 %2
   %scevgep = getelementptr i8, ptr %3, i64 8
   %4 = shl nuw nsw i64 %xtraiter, 4
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 344
+  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 360
   br label %B50.epil
 
 B50.epil:
@@ -8176,7 +7344,7 @@ B237.epil:
   %first.3.1.epil = phi double [ %spec.select.epil, %B198.epil ], [ %first.2.048.epil, %B164.thread.epil ]
   %lsr.iv.next = add nuw nsw i64 %lsr.iv, 16
   %epil.iter.cmp.not = icmp eq i64 %4, %lsr.iv.next
-  br i1 %epil.iter.cmp.not, label %B236, label %B50.epil, !llvm.loop !262
+  br i1 %epil.iter.cmp.not, label %B236, label %B50.epil, !llvm.loop !218
 
 B236:
   %first.2.0.lcssa = phi double [ %arg.last, %B0.endif ], [ %first.3.1.3, %B236.loopexit.unr-lcssa ], [ %first.3.1.epil, %B237.epil ]
@@ -8269,7 +7437,7 @@ B237.3:
 }
 
 
-define i64 @go_on(ptr initializes((424, 440)) %.1) local_unnamed_addr #0 {
+define i64 @go_on(ptr initializes((472, 488)) %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
@@ -8293,12 +7461,12 @@ B0:
   %excinfo.1 = alloca ptr, align 8
   %.163 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
-  %.8 = getelementptr i8, ptr %arg.r, i64 328
+  %.8 = getelementptr i8, ptr %arg.r, i64 344
   %.10 = load double, ptr %.8, align 8
-  %.12 = getelementptr i8, ptr %arg.r, i64 336
+  %.12 = getelementptr i8, ptr %arg.r, i64 352
   %.14 = load double, ptr %.12, align 8
   %.15 = fadd double %.14, 1.000000e+00
-  %.17 = getelementptr i8, ptr %arg.r, i64 488
+  %.17 = getelementptr i8, ptr %arg.r, i64 608
   %.18 = load i64, ptr %.17, align 8
   %.19 = inttoptr i64 %.18 to ptr
   store double %.10, ptr %.19, align 8
@@ -8306,7 +7474,7 @@ B0:
   %.25 = inttoptr i64 %.24 to ptr
   %.26 = getelementptr i8, ptr %.25, i64 8
   store double %.15, ptr %.26, align 8
-  %.30 = getelementptr i8, ptr %arg.r, i64 544
+  %.30 = getelementptr i8, ptr %arg.r, i64 664
   %.31 = load i64, ptr %.30, align 8
   %.32 = inttoptr i64 %.31 to ptr
   %.35 = load i64, ptr %.17, align 8
@@ -8352,13 +7520,13 @@ vector.body.i:
   %vec.phi4.i = phi <4 x i1> [ splat (i1 true), %vector.ph.i ], [ %11, %vector.body.i ]
   %sunkaddr = shl i64 %index.i, 3
   %sunkaddr34 = getelementptr i8, ptr %.93, i64 %sunkaddr
-  %wide.load.i = load <4 x double>, ptr %sunkaddr34, align 8, !noalias !263
+  %wide.load.i = load <4 x double>, ptr %sunkaddr34, align 8, !noalias !219
   %sunkaddr37 = getelementptr i8, ptr %sunkaddr34, i64 32
-  %wide.load5.i = load <4 x double>, ptr %sunkaddr37, align 8, !noalias !263
+  %wide.load5.i = load <4 x double>, ptr %sunkaddr37, align 8, !noalias !219
   %sunkaddr40 = getelementptr i8, ptr %sunkaddr34, i64 64
-  %wide.load6.i = load <4 x double>, ptr %sunkaddr40, align 8, !noalias !263
+  %wide.load6.i = load <4 x double>, ptr %sunkaddr40, align 8, !noalias !219
   %sunkaddr43 = getelementptr i8, ptr %sunkaddr34, i64 96
-  %wide.load7.i = load <4 x double>, ptr %sunkaddr43, align 8, !noalias !263
+  %wide.load7.i = load <4 x double>, ptr %sunkaddr43, align 8, !noalias !219
   %0 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load.i)
   %1 = fcmp one <4 x double> %0, splat (double 0x7FF0000000000000)
   %2 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load5.i)
@@ -8373,7 +7541,7 @@ vector.body.i:
   %11 = and <4 x i1> %vec.phi4.i, %7
   %index.next.i = add nuw nsw i64 %index.i, 16
   %12 = icmp eq i64 %n.vec.i, %index.next.i
-  br i1 %12, label %middle.block.i, label %vector.body.i, !llvm.loop !266
+  br i1 %12, label %middle.block.i, label %vector.body.i, !llvm.loop !222
 
 middle.block.i:
   %bin.rdx.i = and <4 x i1> %8, %9
@@ -8401,13 +7569,13 @@ vec.epilog.vector.body.i:
   %vec.phi13.i = phi <4 x i1> [ %16, %vec.epilog.ph.i ], [ %20, %vec.epilog.vector.body.i ]
   %17 = shl i64 %index12.i, 3
   %scevgep28.i = getelementptr i8, ptr %.93, i64 %17
-  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !263
+  %wide.load14.i = load <4 x double>, ptr %scevgep28.i, align 8, !noalias !219
   %18 = call <4 x double> @llvm.fabs.v4f64(<4 x double> %wide.load14.i)
   %19 = fcmp one <4 x double> %18, splat (double 0x7FF0000000000000)
   %20 = and <4 x i1> %vec.phi13.i, %19
   %index.next15.i = add nuw i64 %index12.i, 4
   %21 = icmp eq i64 %n.vec11.i, %index.next15.i
-  br i1 %21, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !267
+  br i1 %21, label %vec.epilog.middle.block.i, label %vec.epilog.vector.body.i, !llvm.loop !223
 
 vec.epilog.middle.block.i:
   %22 = bitcast <4 x i1> %20 to i4
@@ -8426,12 +7594,12 @@ B40.i:
   %.105.i = add nuw nsw i64 %.983941.i, 1
   %24 = shl i64 %.983941.i, 3
   %scevgep.i = getelementptr i8, ptr %.93, i64 %24
-  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !263
+  %.132.i = load double, ptr %scevgep.i, align 8, !noalias !219
   %25 = call double @llvm.fabs.f64(double %.132.i)
   %26 = fcmp one double %25, 0x7FF0000000000000
   %.136.i = and i1 %good.2.043.i, %26
   %exitcond.not.i = icmp eq i64 %.96, %.105.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !268
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit, label %B40.i, !llvm.loop !224
 
 _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax.exit:
   %.136.lcssa.i = phi i1 [ %23, %vec.epilog.middle.block.i ], [ %14, %middle.block.i ], [ %.136.i, %B40.i ]
@@ -8451,13 +7619,13 @@ B404:
   ], !prof !8
 
 B0.endif:
-  %.68 = getelementptr i8, ptr %arg.r, i64 616
+  %.68 = getelementptr i8, ptr %arg.r, i64 736
   %.69 = load i64, ptr %.68, align 8
   %.70 = inttoptr i64 %.69 to ptr
   store double 0x7FF8000000000000, ptr %.70, align 8
   %.74 = getelementptr i8, ptr %arg.r, i64 16
   %.75 = load i64, ptr %.74, align 8
-  %.77 = getelementptr i8, ptr %arg.r, i64 256
+  %.77 = getelementptr i8, ptr %arg.r, i64 272
   %.78 = load i64, ptr %.77, align 8
   %.79 = inttoptr i64 %.78 to ptr
   %.82 = load i64, ptr %.17, align 8
@@ -8483,11 +7651,11 @@ B404.endif:
   %.191 = fadd double %.190, 1.000000e+00
   store double %.191, ptr %.12, align 8
   %.199 = load double, ptr %.8, align 8
-  %.201 = getelementptr i8, ptr %arg.r, i64 344
+  %.201 = getelementptr i8, ptr %arg.r, i64 360
   store double %.199, ptr %.201, align 8
-  %.205 = getelementptr i8, ptr %arg.r, i64 360
+  %.205 = getelementptr i8, ptr %arg.r, i64 376
   store double %.199, ptr %.205, align 8
-  %.209 = getelementptr i8, ptr %arg.r, i64 368
+  %.209 = getelementptr i8, ptr %arg.r, i64 384
   tail call void @llvm.memset.p0.i64(ptr nonnull align 8 dereferenceable(16) %.209, i8 0, i64 16, i1 false)
   store i64 0, ptr %retptr, align 8
   br label %common.ret
@@ -8517,150 +7685,83 @@ common.ret:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r, i64 %arg.impacts, ptr writeonly %arg.strikes) local_unnamed_addr #0 {
-B0.endif:
-  %.3.i4 = alloca i64, align 8
-  %excinfo.i5 = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i1 = alloca ptr, align 8
-  %.3.i = alloca i64, align 8
-  %excinfo.i = alloca ptr, align 8
-  %.222 = alloca ptr, align 8
+define i32 @_ZN18biped_adrc_kernels13land_and_noteB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r) local_unnamed_addr #0 {
+B0:
+  %.38 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.290 = alloca ptr, align 8
+  %.91 = alloca ptr, align 8
   %excinfo.2 = alloca ptr, align 8
-  %.12 = getelementptr i8, ptr %arg.r, i64 80
-  %.13 = load i64, ptr %.12, align 8
-  %.9894.not = icmp slt i64 %arg.impacts, 1
-  br i1 %.9894.not, label %B530, label %B50.lr.ph
+  %.8 = getelementptr i8, ptr %arg.r, i64 80
+  %.9 = load i64, ptr %.8, align 8
+  %.11 = getelementptr i8, ptr %arg.r, i64 528
+  %.12 = load i64, ptr %.11, align 8
+  %.13 = inttoptr i64 %.12 to ptr
+  %.15 = getelementptr i8, ptr %arg.r, i64 456
+  %.16 = load i64, ptr %.15, align 8
+  %.20 = shl nsw i64 %.9, 1
+  %.21 = or disjoint i64 %.20, 1
+  %.22 = mul nsw i64 %.16, %.21
+  %.23 = getelementptr double, ptr %.13, i64 %.22
+  %.32 = getelementptr i8, ptr %arg.r, i64 664
+  %.33 = load i64, ptr %.32, align 8
+  %.34 = inttoptr i64 %.33 to ptr
+  %.36 = getelementptr i8, ptr %.23, i64 8
+  %.42 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.38, ptr nonnull %excinfo.1, ptr %.34, ptr %.36, i64 %.9)
+  switch i32 %.42, label %B0.if.if [
+    i32 -2, label %B0.endif
+    i32 0, label %B0.endif
+  ], !prof !8
 
-B50.lr.ph:
-  %0 = shl i64 %.13, 3
-  %1 = shl i64 %.13, 4
-  %sunkaddr83 = getelementptr i8, ptr %arg.r, i64 544
-  %sunkaddr84 = getelementptr i8, ptr %arg.r, i64 328
-  br label %B50
-
-B50:
-  %lsr.iv81 = phi i64 [ %arg.impacts, %B50.lr.ph ], [ %lsr.iv.next, %B48.backedge ]
-  %arg.strikes.pn = phi ptr [ %arg.strikes, %B50.lr.ph ], [ %2, %B48.backedge ]
-  %lsr.iv = getelementptr i8, ptr %arg.strikes.pn, i64 8
-  store i64 0, ptr %.3.i, align 8
-  %.7.i = call i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r) #0
-  %cond.i = icmp eq i32 %.7.i, 0
-  br i1 %cond.i, label %go_on.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-go_on.exit:
-  %.17.i = load i64, ptr %.3.i, align 8
-  switch i64 %.17.i, label %B252 [
-    i64 0, label %B104
-    i64 9, label %B258
-  ]
-
-B104:
-  %.148 = getelementptr i8, ptr %arg.r, i64 64
-  %.149 = load i64, ptr %.148, align 8
-  %.150.not = icmp eq i64 %.149, 0
-  br i1 %.150.not, label %B252, label %B126
-
-B126:
-  %.155 = load double, ptr %sunkaddr84, align 8
-  %.158 = load i64, ptr %sunkaddr83, align 8
-  %.159 = inttoptr i64 %.158 to ptr
-  %.161 = getelementptr i8, ptr %arg.r, i64 552
-  %.162 = load i64, ptr %.161, align 8
-  %.163 = inttoptr i64 %.162 to ptr
-  %.10.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i1, ptr nonnull %arg.r, double %.155, ptr readonly %.159, ptr readonly %.163) #0
-  %cond.i2 = icmp eq i32 %.10.i, 0
-  br i1 %cond.i2, label %node.exit, label %entry.if.i3, !prof !24
-
-entry.if.i3:
-  tail call void @llvm.trap()
-  unreachable
-
-node.exit:
-  br label %B252
+B212:
+  %.73 = getelementptr i8, ptr %arg.r, i64 344
+  %.75 = load double, ptr %.73, align 8
+  store double %.75, ptr %.23, align 8
+  %.82 = load i64, ptr %.32, align 8
+  %.83 = inttoptr i64 %.82 to ptr
+  %0 = getelementptr double, ptr %.23, i64 %.9
+  %.87 = getelementptr i8, ptr %0, i64 8
+  %.95 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.91, ptr nonnull %excinfo.2, ptr %.83, ptr %.87, i64 %.9)
+  switch i32 %.95, label %B212.if.if [
+    i32 -2, label %B212.endif
+    i32 0, label %B212.endif
+  ], !prof !8
 
 common.ret:
-  %common.ret.op = phi i32 [ 0, %B252 ], [ 0, %B422 ], [ 0, %B530 ], [ %.226, %B258.if.if ], [ %.294, %B430.if.if ]
+  %common.ret.op = phi i32 [ 0, %B342 ], [ %.42, %B0.if.if ], [ %.95, %B212.if.if ]
   ret i32 %common.ret.op
 
-B252:
-  %"$phi252.1.2.0" = phi i64 [ 1, %B104 ], [ 1, %node.exit ], [ %.17.i, %go_on.exit ]
-  store i64 %"$phi252.1.2.0", ptr %retptr, align 8
+B342:
+  store i64 %.65, ptr %retptr, align 8
   br label %common.ret
 
-B258:
-  %.217 = load i64, ptr %sunkaddr83, align 8
-  %.218 = inttoptr i64 %.217 to ptr
-  %.226 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.222, ptr nonnull %excinfo.1, ptr %.218, ptr %lsr.iv, i64 %.13)
-  switch i32 %.226, label %B258.if.if [
-    i32 -2, label %B258.endif
-    i32 0, label %B258.endif
-  ], !prof !8
+B0.endif:
+  %.65 = tail call i64 @land(ptr nonnull %arg.r)
+  %.70 = icmp eq i64 %.65, 0
+  br i1 %.70, label %B212, label %B342
 
-B422:
-  store i64 %.17.i9, ptr %retptr, align 8
-  br label %common.ret
-
-B430:
-  %.274 = load double, ptr %sunkaddr84, align 8
-  store double %.274, ptr %arg.strikes.pn, align 8
-  %.281 = load i64, ptr %sunkaddr83, align 8
-  %.282 = inttoptr i64 %.281 to ptr
-  %scevgep79 = getelementptr i8, ptr %lsr.iv, i64 %0
-  %.294 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.290, ptr nonnull %excinfo.2, ptr %.282, ptr %scevgep79, i64 %.13)
-  switch i32 %.294, label %B430.if.if [
-    i32 -2, label %B48.backedge
-    i32 0, label %B48.backedge
-  ], !prof !8
-
-B48.backedge:
-  %2 = getelementptr i8, ptr %lsr.iv, i64 %1
-  %lsr.iv.next = add nsw i64 %lsr.iv81, -1
-  %exitcond.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %exitcond.not, label %B530, label %B50
-
-B530:
-  store i64 0, ptr %retptr, align 8
-  br label %common.ret
-
-B258.endif:
-  store i64 0, ptr %.3.i4, align 8
-  %.7.i6 = call i32 @_ZN18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i4, ptr nonnull %excinfo.i5, ptr nonnull %arg.r) #0
-  %cond.i7 = icmp eq i32 %.7.i6, 0
-  br i1 %cond.i7, label %land.exit, label %entry.if.i8, !prof !24
-
-entry.if.i8:
-  tail call void @llvm.trap()
-  unreachable
-
-land.exit:
-  %.17.i9 = load i64, ptr %.3.i4, align 8
-  %.252.not = icmp eq i64 %.17.i9, 0
-  br i1 %.252.not, label %B430, label %B422
-
-B258.if.if:
+B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B430.if.if:
+B212.endif:
+  %.119 = load i64, ptr %.15, align 8
+  %.120 = add nsw i64 %.119, 1
+  store i64 %.120, ptr %.15, align 8
+  br label %B342
+
+B212.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 }
 
 
-define i64 @stride(ptr %.1, i64 %.2, ptr writeonly %.3) local_unnamed_addr #0 {
+define i64 @land_and_note(ptr %.1) local_unnamed_addr #0 {
 entry:
-  %.5 = alloca i64, align 8
-  store i64 0, ptr %.5, align 8
+  %.3 = alloca i64, align 8
+  store i64 0, ptr %.3, align 8
   %excinfo = alloca ptr, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels6strideB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3) #0
-  %cond = icmp eq i32 %.9, 0
+  %.7 = call i32 @_ZN18biped_adrc_kernels13land_and_noteB3v77B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
+  %cond = icmp eq i32 %.7, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
 entry.if:
@@ -8668,42 +7769,90 @@ entry.if:
   unreachable
 
 common.ret:
-  %.19 = load i64, ptr %.5, align 8
-  ret i64 %.19
+  %.17 = load i64, ptr %.3, align 8
+  ret i64 %.17
 }
 
 
-define i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels6strideB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
+B0:
+  %.8 = getelementptr i8, ptr %arg.r, i64 456
+  %.9 = load i64, ptr %.8, align 8
+  %.11 = getelementptr i8, ptr %arg.r, i64 448
+  %.12 = load i64, ptr %.11, align 8
+  %.13 = icmp slt i64 %.9, %.12
+  br i1 %.13, label %B36, label %common.ret
+
+B36:
+  %.19 = tail call i64 @go_on(ptr nonnull %arg.r)
+  switch i64 %.19, label %common.ret [
+    i64 0, label %B88
+    i64 9, label %B238
+  ]
+
+B88:
+  %.27 = getelementptr i8, ptr %arg.r, i64 64
+  %.28 = load i64, ptr %.27, align 8
+  %.29.not = icmp eq i64 %.28, 0
+  br i1 %.29.not, label %common.ret, label %B110
+
+B110:
+  %.32 = getelementptr i8, ptr %arg.r, i64 344
+  %.34 = load double, ptr %.32, align 8
+  %.36 = getelementptr i8, ptr %arg.r, i64 664
+  %.37 = load i64, ptr %.36, align 8
+  %.38 = inttoptr i64 %.37 to ptr
+  %.40 = getelementptr i8, ptr %arg.r, i64 672
+  %.41 = load i64, ptr %.40, align 8
+  %.42 = inttoptr i64 %.41 to ptr
+  %.44 = tail call ptr @node(ptr nonnull %arg.r, double %.34, ptr %.38, ptr %.42)
+  br label %common.ret
+
+common.ret:
+  %.sink = phi i64 [ 1, %B110 ], [ 0, %B0 ], [ 1, %B88 ], [ %.74, %B238 ], [ %.19, %B36 ], [ 0, %B284 ]
+  store i64 %.sink, ptr %retptr, align 8
+  ret i32 0
+
+B238:
+  %.74 = tail call i64 @land_and_note(ptr nonnull %arg.r)
+  %.79.not = icmp eq i64 %.74, 0
+  br i1 %.79.not, label %B284, label %common.ret
+
+B284:
+  %.92 = load i64, ptr %.8, align 8
+  %.95 = load i64, ptr %.11, align 8
+  %.96 = icmp slt i64 %.92, %.95
+  br i1 %.96, label %B36, label %common.ret
+}
+
+
+define i64 @stride(ptr %.1) local_unnamed_addr #0 {
+entry:
+  %.3 = alloca i64, align 8
+  store i64 0, ptr %.3, align 8
+  %.7 = call i32 @_ZN18biped_adrc_kernels6strideB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
+  %.17 = load i64, ptr %.3, align 8
+  ret i64 %.17
+}
+
+
+define i32 @_ZN18biped_adrc_kernels6sampleB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
 B0.endif.endif:
-  %.3.i3 = alloca i64, align 8
-  %excinfo.i4 = alloca ptr, align 8
-  %.3.i = alloca i64, align 8
-  %excinfo.i = alloca ptr, align 8
-  %.128 = getelementptr i8, ptr %arg.r, i64 328
-  %.158 = getelementptr i8, ptr %arg.r, i64 200
+  %.128 = getelementptr i8, ptr %arg.r, i64 344
+  %.158 = getelementptr i8, ptr %arg.r, i64 216
   %.8.i = getelementptr i8, ptr %arg.r, i64 152
   %.130.pre = load double, ptr %.128, align 8
-  %.9.i.pre = load i64, ptr %.8.i, align 8, !noalias !269
+  %.9.i.pre = load i64, ptr %.8.i, align 8, !noalias !225
   %.160.pre = load double, ptr %.158, align 8
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 352
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 368
   br label %B46.endif
 
 B190:
-  store i64 0, ptr %.3.i, align 8
-  %.7.i1 = call i32 @_ZN18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r) #0
-  %cond.i = icmp eq i32 %.7.i1, 0
-  br i1 %cond.i, label %land.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-land.exit:
-  %.17.i2 = load i64, ptr %.3.i, align 8
+  %.197 = tail call i64 @land(ptr nonnull %arg.r)
   br label %B220
 
 B220:
-  %code.2.1 = phi i64 [ %.17.i2, %land.exit ], [ %.17.i8, %go_on.exit ]
+  %code.2.1 = phi i64 [ %.197, %B190 ], [ %.190, %B46.endif.endif ]
   %.202.not = icmp eq i64 %code.2.1, 0
   br i1 %.202.not, label %B250.endif, label %common.ret
 
@@ -8723,9 +7872,9 @@ B46.endif:
   %.8798 = phi i64 [ 100, %B0.endif.endif ], [ %.97, %B348 ]
   %.97 = add nsw i64 %.8798, -1
   %.10.i = icmp eq i64 %.9.i, 1
-  %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 360, i64 216
+  %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
-  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !269
+  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !225
   %.15.i = fsub double %.130, %"$phi52.0.2.0.i"
   %.20.i = fdiv double %.15.i, %.160
   %.21.i = tail call double @llvm.floor.f64(double %.20.i)
@@ -8749,27 +7898,17 @@ B108.i:
 B46.endif.endif:
   %.94.pre-phi.i = phi double [ %.63.i, %B46.endif ], [ %.77.i, %B108.i ]
   store double %.94.pre-phi.i, ptr %sunkaddr, align 8
-  store i64 0, ptr %.3.i3, align 8
-  %.7.i5 = call i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i3, ptr nonnull %excinfo.i4, ptr nonnull %arg.r) #0
-  %cond.i6 = icmp eq i32 %.7.i5, 0
-  br i1 %cond.i6, label %go_on.exit, label %entry.if.i7, !prof !24
-
-entry.if.i7:
-  tail call void @llvm.trap()
-  unreachable
-
-go_on.exit:
-  %.17.i8 = load i64, ptr %.3.i3, align 8
-  %.194 = icmp eq i64 %.17.i8, 9
+  %.190 = tail call i64 @go_on(ptr nonnull %arg.r)
+  %.194 = icmp eq i64 %.190, 9
   br i1 %.194, label %B190, label %B220
 
 B250.endif:
   %.219 = load double, ptr %.128, align 8
-  %.9.i25 = load i64, ptr %.8.i, align 8, !noalias !272
+  %.9.i25 = load i64, ptr %.8.i, align 8, !noalias !228
   %.10.i26 = icmp eq i64 %.9.i25, 1
-  %"$phi52.0.2.0.in.v.i27" = select i1 %.10.i26, i64 360, i64 216
+  %"$phi52.0.2.0.in.v.i27" = select i1 %.10.i26, i64 376, i64 232
   %"$phi52.0.2.0.in.i28" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i27"
-  %"$phi52.0.2.0.i29" = load double, ptr %"$phi52.0.2.0.in.i28", align 8, !noalias !272
+  %"$phi52.0.2.0.i29" = load double, ptr %"$phi52.0.2.0.in.i28", align 8, !noalias !228
   %.249 = load double, ptr %.158, align 8
   %.7.i = fsub double %.219, %"$phi52.0.2.0.i29"
   %.11.i = fdiv double %.7.i, %.249
@@ -8788,12 +7927,12 @@ define i64 @sample(ptr %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
+  %.7 = call i32 @_ZN18biped_adrc_kernels6sampleB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
   %.17 = load i64, ptr %.3, align 8
   ret i64 %.17
 }
 
-define i32 @_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((432, 440)) %arg.r, i64 %arg.law, ptr %arg.out) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels4lookB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((480, 488)) %arg.r, i64 %arg.law, ptr %arg.out) local_unnamed_addr {
 B0:
   %.8 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
@@ -8807,9 +7946,9 @@ B0:
   ], !prof !8
 
 B0.endif:
-  %.34 = getelementptr i8, ptr %arg.r, i64 440
+  %.34 = getelementptr i8, ptr %arg.r, i64 488
   store double 0x7FF0000000000000, ptr %.34, align 8
-  %.38 = getelementptr i8, ptr %arg.r, i64 544
+  %.38 = getelementptr i8, ptr %arg.r, i64 664
   %.39 = load i64, ptr %.38, align 8
   %.40 = inttoptr i64 %.39 to ptr
   %.45 = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41, ptr nonnull %excinfo.2, ptr %arg.r, ptr %.40)
@@ -8825,10 +7964,10 @@ B0.if.if:
   br label %common.ret
 
 B0.endif.endif:
-  %.65 = getelementptr i8, ptr %arg.r, i64 256
+  %.65 = getelementptr i8, ptr %arg.r, i64 272
   %.66 = load i64, ptr %.65, align 8
   %.67 = inttoptr i64 %.66 to ptr
-  %.68 = getelementptr i8, ptr %arg.r, i64 488
+  %.68 = getelementptr i8, ptr %arg.r, i64 608
   %.69 = load i64, ptr %.68, align 8
   %.70 = inttoptr i64 %.69 to ptr
   %.71 = inttoptr i64 %arg.law to ptr
@@ -8845,52 +7984,29 @@ B0.endif.if.if:
 }
 
 
-define noalias ptr @look(ptr initializes((432, 440)) %.1, i64 %.2, ptr %.3) local_unnamed_addr #0 {
+define ptr @look(ptr initializes((480, 488)) %.1, i64 %.2, ptr %.3) local_unnamed_addr #0 {
 entry:
-  %.8.i = alloca ptr, align 8
-  %excinfo.1.i = alloca ptr, align 8
-  %.41.i = alloca ptr, align 8
-  %excinfo.2.i = alloca ptr, align 8
-  store ptr null, ptr %excinfo.2.i, align 8, !noalias !275
-  %.12.i = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.8.i, ptr nonnull %excinfo.1.i, ptr %.1), !noalias !275
-  switch i32 %.12.i, label %entry.if [
-    i32 -2, label %B0.endif.i
-    i32 0, label %B0.endif.i
-  ], !prof !8
-
-B0.endif.i:
-  %.34.i = getelementptr i8, ptr %.1, i64 440
-  store double 0x7FF0000000000000, ptr %.34.i, align 8, !noalias !275
-  %.38.i = getelementptr i8, ptr %.1, i64 544
-  %.39.i = load i64, ptr %.38.i, align 8, !noalias !275
-  %.40.i = inttoptr i64 %.39.i to ptr
-  %.45.i = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41.i, ptr nonnull %excinfo.2.i, ptr %.1, ptr %.40.i) #0, !noalias !275
-  %cond.i = icmp eq i32 %.45.i, 0
-  br i1 %cond.i, label %_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a.exit, label %entry.if, !prof !24
-
-_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a.exit:
-  %.65.i = getelementptr i8, ptr %.1, i64 256
-  %.66.i = load i64, ptr %.65.i, align 8, !noalias !275
-  %.67.i = inttoptr i64 %.66.i to ptr
-  %.68.i = getelementptr i8, ptr %.1, i64 488
-  %.69.i = load i64, ptr %.68.i, align 8, !noalias !275
-  %.70.i = inttoptr i64 %.69.i to ptr
-  %.71.i = inttoptr i64 %.2 to ptr
-  call void %.71.i(ptr %.67.i, ptr %.70.i, ptr %.3) #0, !noalias !275
-  ret ptr null
+  %.5 = alloca ptr, align 8
+  store ptr null, ptr %.5, align 8
+  %excinfo = alloca ptr, align 8
+  %.9 = call i32 @_ZN18biped_adrc_kernels4lookB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr nonnull %.5, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3) #0
+  %cond = icmp eq i32 %.9, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
 entry.if:
-  call void @llvm.trap()
+  tail call void @llvm.trap()
   unreachable
+
+common.ret:
+  %.19 = load ptr, ptr %.5, align 8
+  ret ptr %.19
 }
 
 
-define i32 @_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.x, double %arg.z) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels4pushB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.x, double %arg.z) local_unnamed_addr #0 {
 B0:
   %.3.i = alloca ptr, align 8
-  %.6.i = alloca ptr, align 8
-  %excinfo.i = alloca ptr, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 320
+  %.14 = getelementptr i8, ptr %arg.r, i64 336
   %.15 = load i64, ptr %.14, align 8
   %.16 = inttoptr i64 %.15 to ptr
   %.22 = load double, ptr %.16, align 8
@@ -8910,23 +8026,15 @@ B66:
   br i1 %.35.not, label %B202.endif, label %B88
 
 B88:
-  %.38 = getelementptr i8, ptr %arg.r, i64 328
+  %.38 = getelementptr i8, ptr %arg.r, i64 344
   %.40 = load double, ptr %.38, align 8
-  %.42 = getelementptr i8, ptr %arg.r, i64 544
+  %.42 = getelementptr i8, ptr %arg.r, i64 664
   %.43 = load i64, ptr %.42, align 8
   %.44 = inttoptr i64 %.43 to ptr
-  %.46 = getelementptr i8, ptr %arg.r, i64 552
+  %.46 = getelementptr i8, ptr %arg.r, i64 672
   %.47 = load i64, ptr %.46, align 8
   %.48 = inttoptr i64 %.47 to ptr
-  %.10.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull %excinfo.i, ptr nonnull %arg.r, double %.40, ptr readonly %.44, ptr readonly %.48) #0
-  %cond.i = icmp eq i32 %.10.i, 0
-  br i1 %cond.i, label %node.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  tail call void @llvm.trap()
-  unreachable
-
-node.exit:
+  %.50 = tail call ptr @node(ptr nonnull %arg.r, double %.40, ptr %.44, ptr %.48)
   %.110.pre = load double, ptr %.16, align 8
   br label %B202.endif
 
@@ -8942,8 +8050,8 @@ common.ret:
   ret i32 0
 
 B202.endif:
-  %.110 = phi double [ %.22, %B66 ], [ %.110.pre, %node.exit ]
-  %.53 = getelementptr i8, ptr %arg.r, i64 184
+  %.110 = phi double [ %.22, %B66 ], [ %.110.pre, %B88 ]
+  %.53 = getelementptr i8, ptr %arg.r, i64 200
   %.54 = load i64, ptr %.53, align 8
   %.56 = fcmp une double %arg.x, 0.000000e+00
   %.72 = fcmp une double %arg.z, 0.000000e+00
@@ -8965,304 +8073,17 @@ B274.endif:
 }
 
 
-define noalias ptr @push(ptr %.1, double %.2, double %.3) local_unnamed_addr #0 {
+define ptr @push(ptr %.1, double %.2, double %.3) local_unnamed_addr #0 {
 entry:
-  %.3.i.i = alloca ptr, align 8
-  %.6.i.i = alloca ptr, align 8
-  %excinfo.i.i = alloca ptr, align 8
-  %.14.i = getelementptr i8, ptr %.1, i64 320
-  %.15.i = load i64, ptr %.14.i, align 8, !noalias !279
-  %.16.i = inttoptr i64 %.15.i to ptr
-  %.22.i = load double, ptr %.16.i, align 8, !noalias !279
-  %.24.i = fcmp une double %.2, %.22.i
-  br i1 %.24.i, label %B66.i, label %B42.i
-
-B42.i:
-  %.27.i = getelementptr i8, ptr %.16.i, i64 8
-  %.28.i = load double, ptr %.27.i, align 8, !noalias !279
-  %.30.i = fcmp une double %.3, %.28.i
-  br i1 %.30.i, label %B66.i, label %_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add.exit
-
-B66.i:
-  %.33.i = getelementptr i8, ptr %.1, i64 64
-  %.34.i = load i64, ptr %.33.i, align 8, !noalias !279
-  %.35.not.i = icmp eq i64 %.34.i, 0
-  br i1 %.35.not.i, label %B202.endif.i, label %B88.i
-
-B88.i:
-  %.38.i = getelementptr i8, ptr %.1, i64 328
-  %.40.i = load double, ptr %.38.i, align 8, !noalias !279
-  %.42.i = getelementptr i8, ptr %.1, i64 544
-  %.43.i = load i64, ptr %.42.i, align 8, !noalias !279
-  %.44.i = inttoptr i64 %.43.i to ptr
-  %.46.i = getelementptr i8, ptr %.1, i64 552
-  %.47.i = load i64, ptr %.46.i, align 8, !noalias !279
-  %.48.i = inttoptr i64 %.47.i to ptr
-  %.10.i.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i.i, ptr nonnull %excinfo.i.i, ptr nonnull %.1, double %.40.i, ptr readonly %.44.i, ptr readonly %.48.i) #0, !noalias !279
-  %cond.i.i = icmp eq i32 %.10.i.i, 0
-  br i1 %cond.i.i, label %node.exit.i, label %entry.if.i.i, !prof !24
-
-entry.if.i.i:
-  tail call void @llvm.trap()
-  unreachable
-
-node.exit.i:
-  %.110.pre.i = load double, ptr %.16.i, align 8, !noalias !279
-  br label %B202.endif.i
-
-B252.i:
-  %.123.i = getelementptr i8, ptr %.16.i, i64 8
-  %.124.i = load double, ptr %.123.i, align 8, !noalias !279
-  %.125.i = fcmp une double %.124.i, 0.000000e+00
-  %.neg.i = sext i1 %.125.i to i64
-  br label %B274.endif.i
-
-B202.endif.i:
-  %.110.i = phi double [ %.22.i, %B66.i ], [ %.110.pre.i, %node.exit.i ]
-  %.53.i = getelementptr i8, ptr %.1, i64 184
-  %.54.i = load i64, ptr %.53.i, align 8, !noalias !279
-  %.56.i = fcmp une double %.2, 0.000000e+00
-  %.72.i = fcmp une double %.3, 0.000000e+00
-  %"$phi202.4.2.0.i" = select i1 %.56.i, i1 true, i1 %.72.i
-  %.15.i.i = zext i1 %"$phi202.4.2.0.i" to i64
-  %.111.i = fcmp une double %.110.i, 0.000000e+00
-  br i1 %.111.i, label %B274.endif.i, label %B252.i
-
-B274.endif.i:
-  %"$phi274.5.2.0.neg.i" = phi i64 [ -1, %B202.endif.i ], [ %.neg.i, %B252.i ]
-  %.160.i = add i64 %.54.i, %.15.i.i
-  %.164.i = add i64 %.160.i, %"$phi274.5.2.0.neg.i"
-  store i64 %.164.i, ptr %.53.i, align 8, !noalias !279
-  store double %.2, ptr %.16.i, align 8, !noalias !279
-  %.180.i = getelementptr i8, ptr %.16.i, i64 8
-  store double %.3, ptr %.180.i, align 8, !noalias !279
-  %.7.i.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i.i, ptr nonnull poison, ptr nonnull readonly %.1) #0, !noalias !279
-  br label %_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add.exit
-
-_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add.exit:
-  ret ptr null
+  %.5 = alloca ptr, align 8
+  %.9 = call i32 @_ZN18biped_adrc_kernels4pushB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5, ptr nonnull poison, ptr %.1, double %.2, double %.3) #0
+  %.19 = load ptr, ptr %.5, align 8
+  ret ptr %.19
 }
 
 
-define i32 @_ZN18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.inputs, ptr writeonly %arg.states, ptr %arg.codes, ptr writeonly %arg.impacts) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.laws, ptr %arg.views) local_unnamed_addr #0 {
 B0.endif:
-  %.3.i = alloca i64, align 8
-  %.3.i.i.i = alloca ptr, align 8
-  %.6.i.i.i = alloca ptr, align 8
-  %excinfo.i.i.i = alloca ptr, align 8
-  %.198 = alloca ptr, align 8
-  %excinfo.1 = alloca ptr, align 8
-  %.370 = alloca ptr, align 8
-  %excinfo.4 = alloca ptr, align 8
-  %.10887.not = icmp slt i64 %arg.count, 1
-  br i1 %.10887.not, label %B708, label %B42.preheader
-
-B42.preheader:
-  %scevgep = getelementptr i8, ptr %arg.states, i64 16
-  %0 = shl i64 %arg.width, 3
-  br label %B42
-
-B42:
-  %lsr.iv = phi ptr [ %scevgep, %B42.preheader ], [ %scevgep13, %B704 ]
-  %over.2.090 = phi i64 [ 0, %B42.preheader ], [ %over.3.1, %B704 ]
-  %.1148388 = phi i64 [ 0, %B42.preheader ], [ %.121, %B704 ]
-  %.121 = add nuw nsw i64 %.1148388, 1
-  %1 = shl i64 %.1148388, 3
-  %scevgep18 = getelementptr i8, ptr %arg.impacts, i64 %1
-  store i64 -1, ptr %scevgep18, align 8
-  %scevgep17 = getelementptr i8, ptr %arg.codes, i64 %1
-  %.160 = load i64, ptr %scevgep17, align 8
-  %.161 = icmp eq i64 %.160, 0
-  br i1 %.161, label %B90, label %B704
-
-B90:
-  %scevgep16 = getelementptr i8, ptr %arg.walks, i64 %1
-  %.169 = load i64, ptr %scevgep16, align 8
-  %.170.not = icmp eq i64 %.169, 0
-  br i1 %.170.not, label %B704, label %B116
-
-B116:
-  %.178 = inttoptr i64 %.169 to ptr
-  %.183 = getelementptr i8, ptr %.178, i64 88
-  %.184 = load i64, ptr %.183, align 8
-  %.185 = add nsw i64 %.184, 2
-  %.187 = mul nsw i64 %.185, %.1148388
-  %.189 = getelementptr double, ptr %arg.inputs, i64 %.187
-  %.192 = getelementptr i8, ptr %.178, i64 312
-  %.193 = load i64, ptr %.192, align 8
-  %.194 = inttoptr i64 %.193 to ptr
-  %.202 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.198, ptr nonnull %excinfo.1, ptr %.189, ptr %.194, i64 %.184)
-  switch i32 %.202, label %B116.if.if [
-    i32 -2, label %B116.endif.endif
-    i32 0, label %B116.endif.endif
-  ], !prof !8
-
-B490:
-  %.299 = load i64, ptr %scevgep17, align 8
-  %.300 = icmp ne i64 %.299, 0
-  %2 = zext i1 %.300 to i64
-  br label %B522.endif
-
-B704:
-  %over.3.1 = phi i64 [ %over.2.090, %B42 ], [ %over.2.090, %B90 ], [ %.335, %B522.endif ], [ %.335, %B522.endif ]
-  %scevgep13 = getelementptr i8, ptr %lsr.iv, i64 %0
-  %exitcond.not = icmp eq i64 %arg.count, %.121
-  br i1 %exitcond.not, label %B708, label %B42
-
-common.ret:
-  %common.ret.op = phi i32 [ 0, %B708 ], [ %.202, %B116.if.if ], [ %.374, %B522.endif.if.if ]
-  ret i32 %common.ret.op
-
-B708:
-  %over.2.0.lcssa = phi i64 [ 0, %B0.endif ], [ %over.3.1, %B704 ]
-  store i64 %over.2.0.lcssa, ptr %retptr, align 8
-  br label %common.ret
-
-B116.if.if:
-  store ptr null, ptr %excinfo, align 8
-  br label %common.ret
-
-B116.endif.endif:
-  %.224 = load i64, ptr %.183, align 8
-  %.225 = getelementptr double, ptr %.189, i64 %.224
-  %.226 = load double, ptr %.225, align 8
-  %.231 = getelementptr i8, ptr %.225, i64 8
-  %.232 = load double, ptr %.231, align 8
-  %.14.i.i = getelementptr i8, ptr %.178, i64 320
-  %.15.i.i = load i64, ptr %.14.i.i, align 8, !noalias !282
-  %.16.i.i = inttoptr i64 %.15.i.i to ptr
-  %.22.i.i = load double, ptr %.16.i.i, align 8, !noalias !282
-  %.24.i.i = fcmp une double %.226, %.22.i.i
-  br i1 %.24.i.i, label %B66.i.i, label %B42.i.i
-
-B42.i.i:
-  %.27.i.i = getelementptr i8, ptr %.16.i.i, i64 8
-  %.28.i.i = load double, ptr %.27.i.i, align 8, !noalias !282
-  %.30.i.i = fcmp une double %.232, %.28.i.i
-  br i1 %.30.i.i, label %B66.i.i, label %push.exit
-
-B66.i.i:
-  %.33.i.i = getelementptr i8, ptr %.178, i64 64
-  %.34.i.i = load i64, ptr %.33.i.i, align 8, !noalias !282
-  %.35.not.i.i = icmp eq i64 %.34.i.i, 0
-  br i1 %.35.not.i.i, label %B202.endif.i.i, label %B88.i.i
-
-B88.i.i:
-  %.38.i.i = getelementptr i8, ptr %.178, i64 328
-  %.40.i.i = load double, ptr %.38.i.i, align 8, !noalias !282
-  %.42.i.i = getelementptr i8, ptr %.178, i64 544
-  %.43.i.i = load i64, ptr %.42.i.i, align 8, !noalias !282
-  %.44.i.i = inttoptr i64 %.43.i.i to ptr
-  %.46.i.i = getelementptr i8, ptr %.178, i64 552
-  %.47.i.i = load i64, ptr %.46.i.i, align 8, !noalias !282
-  %.48.i.i = inttoptr i64 %.47.i.i to ptr
-  %.10.i.i.i = call i32 @_ZN18biped_adrc_kernels4nodeB3v11B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a(ptr nonnull %.6.i.i.i, ptr nonnull %excinfo.i.i.i, ptr nonnull %.178, double %.40.i.i, ptr readonly %.44.i.i, ptr readonly %.48.i.i) #0, !noalias !282
-  %cond.i.i.i = icmp eq i32 %.10.i.i.i, 0
-  br i1 %cond.i.i.i, label %node.exit.i.i, label %entry.if.i.i.i, !prof !24
-
-entry.if.i.i.i:
-  tail call void @llvm.trap()
-  unreachable
-
-node.exit.i.i:
-  %.110.pre.i.i = load double, ptr %.16.i.i, align 8, !noalias !282
-  br label %B202.endif.i.i
-
-B252.i.i:
-  %.123.i.i = getelementptr i8, ptr %.16.i.i, i64 8
-  %.124.i.i = load double, ptr %.123.i.i, align 8, !noalias !282
-  %.125.i.i = fcmp une double %.124.i.i, 0.000000e+00
-  %.neg.i.i = sext i1 %.125.i.i to i64
-  br label %B274.endif.i.i
-
-B202.endif.i.i:
-  %.110.i.i = phi double [ %.22.i.i, %B66.i.i ], [ %.110.pre.i.i, %node.exit.i.i ]
-  %.53.i.i = getelementptr i8, ptr %.178, i64 184
-  %.54.i.i = load i64, ptr %.53.i.i, align 8, !noalias !282
-  %.56.i.i = fcmp une double %.226, 0.000000e+00
-  %.72.i.i = fcmp une double %.232, 0.000000e+00
-  %"$phi202.4.2.0.i.i" = select i1 %.56.i.i, i1 true, i1 %.72.i.i
-  %.15.i.i.i = zext i1 %"$phi202.4.2.0.i.i" to i64
-  %.111.i.i = fcmp une double %.110.i.i, 0.000000e+00
-  br i1 %.111.i.i, label %B274.endif.i.i, label %B252.i.i
-
-B274.endif.i.i:
-  %"$phi274.5.2.0.neg.i.i" = phi i64 [ -1, %B202.endif.i.i ], [ %.neg.i.i, %B252.i.i ]
-  %.160.i.i = add i64 %.54.i.i, %.15.i.i.i
-  %.164.i.i = add i64 %.160.i.i, %"$phi274.5.2.0.neg.i.i"
-  store i64 %.164.i.i, ptr %.53.i.i, align 8, !noalias !282
-  store double %.226, ptr %.16.i.i, align 8, !noalias !282
-  %.180.i.i = getelementptr i8, ptr %.16.i.i, i64 8
-  store double %.232, ptr %.180.i.i, align 8, !noalias !282
-  %.7.i.i.i = call i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i.i.i, ptr nonnull poison, ptr nonnull readonly %.178) #0, !noalias !282
-  br label %push.exit
-
-push.exit:
-  %.236 = getelementptr i8, ptr %.178, i64 336
-  %.238 = load double, ptr %.236, align 8
-  store i64 0, ptr %.3.i, align 8
-  %.7.i = call i32 @_ZN18biped_adrc_kernels6sampleB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull %.178) #0
-  %.17.i = load i64, ptr %.3.i, align 8
-  store i64 %.17.i, ptr %scevgep17, align 8
-  %.248 = load double, ptr %.236, align 8
-  %.249 = fsub double %.248, %.238
-  %.5.i = fptosi double %.249 to i64
-  store i64 %.5.i, ptr %scevgep18, align 8
-  %.282 = icmp sgt i64 %.5.i, 0
-  br i1 %.282, label %B522.endif, label %B490
-
-B522.endif:
-  %"$phi522.4.2.2" = phi i64 [ 1, %push.exit ], [ %2, %B490 ]
-  %.335 = add nsw i64 %"$phi522.4.2.2", %over.2.090
-  %scevgep15 = getelementptr i8, ptr %lsr.iv, i64 -16
-  %.348 = getelementptr i8, ptr %.178, i64 328
-  %.350 = load double, ptr %.348, align 8
-  %.354 = load double, ptr %.236, align 8
-  store double %.350, ptr %scevgep15, align 8
-  %scevgep14 = getelementptr i8, ptr %lsr.iv, i64 -8
-  store double %.354, ptr %scevgep14, align 8
-  %.361 = getelementptr i8, ptr %.178, i64 544
-  %.362 = load i64, ptr %.361, align 8
-  %.363 = inttoptr i64 %.362 to ptr
-  %.366 = getelementptr i8, ptr %.178, i64 80
-  %.367 = load i64, ptr %.366, align 8
-  %.374 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.370, ptr nonnull %excinfo.4, ptr %.363, ptr %lsr.iv, i64 %.367)
-  switch i32 %.374, label %B522.endif.if.if [
-    i32 -2, label %B704
-    i32 0, label %B704
-  ], !prof !8
-
-B522.endif.if.if:
-  store ptr null, ptr %excinfo, align 8
-  br label %common.ret
-}
-
-
-define i64 @samples(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr writeonly %.5, ptr %.6, ptr writeonly %.7) local_unnamed_addr #0 {
-entry:
-  %.9 = alloca i64, align 8
-  store i64 0, ptr %.9, align 8
-  %excinfo = alloca ptr, align 8
-  %.13 = call i32 @_ZN18biped_adrc_kernels7samplesB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a(ptr nonnull %.9, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5, ptr %.6, ptr %.7) #0
-  %cond = icmp eq i32 %.13, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !24
-
-entry.if:
-  tail call void @llvm.trap()
-  unreachable
-
-common.ret:
-  %.23 = load i64, ptr %.9, align 8
-  ret i64 %.23
-}
-
-
-define i32 @_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.laws, ptr %arg.views) local_unnamed_addr #0 {
-B0.endif:
-  %.8.i.i = alloca ptr, align 8
-  %excinfo.1.i.i = alloca ptr, align 8
-  %.41.i.i = alloca ptr, align 8
-  %excinfo.2.i.i = alloca ptr, align 8
   %.9847.not = icmp slt i64 %arg.count, 1
   br i1 %.9847.not, label %B182, label %B36.preheader
 
@@ -9284,36 +8105,7 @@ B62:
   %.149 = inttoptr i64 %.142 to ptr
   %scevgep1 = getelementptr i8, ptr %arg.laws, i64 %1
   %.153 = load i64, ptr %scevgep1, align 8
-  store ptr null, ptr %excinfo.2.i.i, align 8, !noalias !285
-  %.12.i.i = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.8.i.i, ptr nonnull %excinfo.1.i.i, ptr nonnull %.149), !noalias !285
-  switch i32 %.12.i.i, label %entry.if.i [
-    i32 -2, label %B0.endif.i.i
-    i32 0, label %B0.endif.i.i
-  ], !prof !8
-
-B0.endif.i.i:
-  %.34.i.i = getelementptr i8, ptr %.149, i64 440
-  store double 0x7FF0000000000000, ptr %.34.i.i, align 8, !noalias !285
-  %.38.i.i = getelementptr i8, ptr %.149, i64 544
-  %.39.i.i = load i64, ptr %.38.i.i, align 8, !noalias !285
-  %.40.i.i = inttoptr i64 %.39.i.i to ptr
-  %.45.i.i = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41.i.i, ptr nonnull %excinfo.2.i.i, ptr nonnull %.149, ptr %.40.i.i) #0, !noalias !285
-  %cond.i.i = icmp eq i32 %.45.i.i, 0
-  br i1 %cond.i.i, label %look.exit, label %entry.if.i, !prof !24
-
-entry.if.i:
-  call void @llvm.trap()
-  unreachable
-
-look.exit:
-  %.65.i.i = getelementptr i8, ptr %.149, i64 256
-  %.66.i.i = load i64, ptr %.65.i.i, align 8, !noalias !285
-  %.67.i.i = inttoptr i64 %.66.i.i to ptr
-  %.68.i.i = getelementptr i8, ptr %.149, i64 488
-  %.69.i.i = load i64, ptr %.68.i.i, align 8, !noalias !285
-  %.70.i.i = inttoptr i64 %.69.i.i to ptr
-  %.71.i.i = inttoptr i64 %.153 to ptr
-  call void %.71.i.i(ptr %.67.i.i, ptr %.70.i.i, ptr %lsr.iv) #0, !noalias !285
+  %.161 = tail call ptr @look(ptr nonnull %.149, i64 %.153, ptr %lsr.iv)
   br label %B180
 
 B180:
@@ -9329,12 +8121,8 @@ B182:
 
 define noalias ptr @looks(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr %.5) local_unnamed_addr #0 {
 entry:
-  %.8.i.i.i = alloca ptr, align 8
-  %excinfo.1.i.i.i = alloca ptr, align 8
-  %.41.i.i.i = alloca ptr, align 8
-  %excinfo.2.i.i.i = alloca ptr, align 8
   %.9847.not.i = icmp slt i64 %.2, 1
-  br i1 %.9847.not.i, label %_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit, label %B36.preheader.i
+  br i1 %.9847.not.i, label %_ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit, label %B36.preheader.i
 
 B36.preheader.i:
   %0 = shl i64 %.3, 3
@@ -9346,60 +8134,2524 @@ B36.i:
   %.111.i = add nuw nsw i64 %.1044648.i, 1
   %1 = shl i64 %.1044648.i, 3
   %scevgep2.i = getelementptr i8, ptr %.1, i64 %1
-  %.142.i = load i64, ptr %scevgep2.i, align 8, !noalias !289
+  %.142.i = load i64, ptr %scevgep2.i, align 8, !noalias !231
   %.143.not.i = icmp eq i64 %.142.i, 0
   br i1 %.143.not.i, label %B180.i, label %B62.i
 
 B62.i:
   %.149.i = inttoptr i64 %.142.i to ptr
   %scevgep1.i = getelementptr i8, ptr %.4, i64 %1
-  %.153.i = load i64, ptr %scevgep1.i, align 8, !noalias !289
-  store ptr null, ptr %excinfo.2.i.i.i, align 8, !noalias !292
-  %.12.i.i.i = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.8.i.i.i, ptr nonnull %excinfo.1.i.i.i, ptr nonnull %.149.i), !noalias !292
-  switch i32 %.12.i.i.i, label %entry.if.i.i [
-    i32 -2, label %B0.endif.i.i.i
-    i32 0, label %B0.endif.i.i.i
-  ], !prof !8
-
-B0.endif.i.i.i:
-  %.34.i.i.i = getelementptr i8, ptr %.149.i, i64 440
-  store double 0x7FF0000000000000, ptr %.34.i.i.i, align 8, !noalias !292
-  %.38.i.i.i = getelementptr i8, ptr %.149.i, i64 544
-  %.39.i.i.i = load i64, ptr %.38.i.i.i, align 8, !noalias !292
-  %.40.i.i.i = inttoptr i64 %.39.i.i.i to ptr
-  %.45.i.i.i = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41.i.i.i, ptr nonnull %excinfo.2.i.i.i, ptr nonnull %.149.i, ptr %.40.i.i.i) #0, !noalias !292
-  %cond.i.i.i = icmp eq i32 %.45.i.i.i, 0
-  br i1 %cond.i.i.i, label %look.exit.i, label %entry.if.i.i, !prof !24
-
-entry.if.i.i:
-  call void @llvm.trap()
-  unreachable
-
-look.exit.i:
-  %.65.i.i.i = getelementptr i8, ptr %.149.i, i64 256
-  %.66.i.i.i = load i64, ptr %.65.i.i.i, align 8, !noalias !292
-  %.67.i.i.i = inttoptr i64 %.66.i.i.i to ptr
-  %.68.i.i.i = getelementptr i8, ptr %.149.i, i64 488
-  %.69.i.i.i = load i64, ptr %.68.i.i.i, align 8, !noalias !292
-  %.70.i.i.i = inttoptr i64 %.69.i.i.i to ptr
-  %.71.i.i.i = inttoptr i64 %.153.i to ptr
-  call void %.71.i.i.i(ptr %.67.i.i.i, ptr %.70.i.i.i, ptr %lsr.iv.i) #0, !noalias !292
+  %.153.i = load i64, ptr %scevgep1.i, align 8, !noalias !231
+  %.161.i = tail call ptr @look(ptr nonnull %.149.i, i64 %.153.i, ptr %lsr.iv.i), !noalias !231
   br label %B180.i
 
 B180.i:
   %scevgep.i = getelementptr i8, ptr %lsr.iv.i, i64 %0
   %exitcond.not.i = icmp eq i64 %.2, %.111.i
-  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit, label %B36.i
+  br i1 %exitcond.not.i, label %_ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit, label %B36.i
 
-_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit:
+_ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a.exit:
   ret ptr null
+}
+
+
+define i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
+B0:
+  %.158 = getelementptr i8, ptr %arg.r, i64 344
+  %.188 = getelementptr i8, ptr %arg.r, i64 216
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 152
+  %.8.i.pre = load double, ptr %.158, align 8, !noalias !234
+  %.9.i.i.pre = load i64, ptr %.8.i.i, align 8, !noalias !237
+  %.38.i.pre = load double, ptr %.188, align 8, !noalias !234
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 464
+  %sunkaddr25 = getelementptr i8, ptr %arg.r, i64 368
+  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 456
+  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 448
+  br label %B6
+
+B6:
+  %.38.i = phi double [ %.190, %B384.endif.endif.endif ], [ %.38.i.pre, %B0 ]
+  %.9.i.i = phi i64 [ %.9.i, %B384.endif.endif.endif ], [ %.9.i.i.pre, %B0 ]
+  %.8.i = phi double [ %.160, %B384.endif.endif.endif ], [ %.8.i.pre, %B0 ]
+  %.11 = load double, ptr %sunkaddr, align 8
+  %.10.i.i = icmp eq i64 %.9.i.i, 1
+  %"$phi52.0.2.0.in.v.i.i" = select i1 %.10.i.i, i64 376, i64 232
+  %"$phi52.0.2.0.in.i.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i"
+  %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !237
+  %.15.i.i = fsub double %.8.i, %"$phi52.0.2.0.i.i"
+  %.20.i.i = fdiv double %.15.i.i, %.38.i
+  %.21.i.i = tail call double @llvm.floor.f64(double %.20.i.i)
+  %.22.i.i = fptosi double %.21.i.i to i64
+  %.13.i.i.i = tail call i64 @llvm.smax.i64(i64 %.22.i.i, i64 0)
+  %.60.i.i = uitofp nneg i64 %.13.i.i.i to double
+  %.61.i.i = fmul double %.38.i, %.60.i.i
+  %.63.i.i = fadd double %"$phi52.0.2.0.i.i", %.61.i.i
+  %.65.i.i = fcmp ugt double %.63.i.i, %.8.i
+  br i1 %.65.i.i, label %B6.endif.endif, label %B108.i.i
+
+B108.i.i:
+  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i ], [ %.13.i.i.i, %B6 ]
+  %lsr.iv = add i64 %lsr.iv.in, 1
+  %.74.i.i = uitofp nneg i64 %lsr.iv to double
+  %.75.i.i = fmul double %.38.i, %.74.i.i
+  %.77.i.i = fadd double %"$phi52.0.2.0.i.i", %.75.i.i
+  %.79.i.i = fcmp ugt double %.77.i.i, %.8.i
+  br i1 %.79.i.i, label %B6.endif.endif, label %B108.i.i
+
+B136:
+  %.85 = load double, ptr %.158, align 8
+  %.89 = load double, ptr %sunkaddr, align 8
+  %.90 = fcmp olt double %.85, %.89
+  br i1 %.90, label %common.ret, label %B182
+
+common.ret:
+  %.sink = phi i64 [ 1, %B204 ], [ 1, %B182 ], [ -1, %B136 ], [ %.73, %B6.endif.endif ], [ %.132, %B336 ], [ 0, %B348 ], [ -1, %B384.endif.endif.endif ]
+  store i64 %.sink, ptr %retptr, align 8
+  ret i32 0
+
+B182:
+  %.97 = getelementptr i8, ptr %arg.r, i64 64
+  %.98 = load i64, ptr %.97, align 8
+  %.99.not = icmp eq i64 %.98, 0
+  br i1 %.99.not, label %common.ret, label %B204
+
+B204:
+  %.106 = getelementptr i8, ptr %arg.r, i64 664
+  %.107 = load i64, ptr %.106, align 8
+  %.108 = inttoptr i64 %.107 to ptr
+  %.110 = getelementptr i8, ptr %arg.r, i64 672
+  %.111 = load i64, ptr %.110, align 8
+  %.112 = inttoptr i64 %.111 to ptr
+  %.114 = tail call ptr @node(ptr nonnull %arg.r, double %.85, ptr %.108, ptr %.112)
+  br label %common.ret
+
+B336:
+  %.132 = tail call i64 @land_and_note(ptr nonnull %arg.r)
+  %.137.not = icmp eq i64 %.132, 0
+  br i1 %.137.not, label %B348, label %common.ret
+
+B348:
+  %.141 = load i64, ptr %sunkaddr23, align 8
+  %.144 = load i64, ptr %sunkaddr24, align 8
+  %.145 = icmp eq i64 %.141, %.144
+  br i1 %.145, label %common.ret, label %B384.endif.endif.endif
+
+B6.endif.endif:
+  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B6 ], [ %.77.i.i, %B108.i.i ]
+  %.12.i = fcmp olt double %.94.pre-phi.i.i, %.11
+  %.13.i = select i1 %.12.i, double %.94.pre-phi.i.i, double %.11
+  store double %.13.i, ptr %sunkaddr25, align 8
+  %.73 = tail call i64 @go_on(ptr nonnull %arg.r)
+  switch i64 %.73, label %common.ret [
+    i64 0, label %B136
+    i64 9, label %B336
+  ]
+
+B384.endif.endif.endif:
+  %.160 = load double, ptr %.158, align 8
+  %.9.i = load i64, ptr %.8.i.i, align 8, !noalias !240
+  %.10.i = icmp eq i64 %.9.i, 1
+  %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 376, i64 232
+  %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
+  %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !240
+  %.190 = load double, ptr %.188, align 8
+  %.7.i = fsub double %.160, %"$phi52.0.2.0.i"
+  %.11.i = fdiv double %.7.i, %.190
+  %.12.i16 = fadd double %.11.i, 5.000000e-01
+  %.13.i17 = tail call double @llvm.floor.f64(double %.12.i16)
+  %.14.i = fptosi double %.13.i17 to i64
+  %.15.i = sitofp i64 %.14.i to double
+  %.16.i = fmul double %.190, %.15.i
+  %.17.i = fadd double %"$phi52.0.2.0.i", %.16.i
+  %.18.i = fcmp une double %.160, %.17.i
+  br i1 %.18.i, label %B6, label %common.ret
+}
+
+
+define i64 @hop(ptr %.1) local_unnamed_addr #0 {
+entry:
+  %.3 = alloca i64, align 8
+  store i64 0, ptr %.3, align 8
+  %.7 = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
+  %.17 = load i64, ptr %.3, align 8
+  ret i64 %.17
+}
+
+
+define i32 @_ZN18biped_adrc_kernels8is_plainB3v85B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r) local_unnamed_addr #0 {
+B0:
+  %.157 = alloca double, align 8
+  %excinfo.4 = alloca ptr, align 8
+  %.8 = getelementptr i8, ptr %arg.r, i64 344
+  %.10 = load double, ptr %.8, align 8
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 152
+  %.9.i.i = load i64, ptr %.8.i.i, align 8, !noalias !243
+  %.10.i.i = icmp eq i64 %.9.i.i, 1
+  %"$phi52.0.2.0.in.v.i.i" = select i1 %.10.i.i, i64 376, i64 232
+  %"$phi52.0.2.0.in.i.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i"
+  %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !243
+  %.36.i = getelementptr i8, ptr %arg.r, i64 216
+  %.38.i = load double, ptr %.36.i, align 8, !noalias !248
+  %.15.i.i = fsub double %.10, %"$phi52.0.2.0.i.i"
+  %.20.i.i = fdiv double %.15.i.i, %.38.i
+  %.21.i.i = tail call double @llvm.floor.f64(double %.20.i.i)
+  %.22.i.i = fptosi double %.21.i.i to i64
+  %.13.i.i.i = tail call i64 @llvm.smax.i64(i64 %.22.i.i, i64 0)
+  %.60.i.i = uitofp nneg i64 %.13.i.i.i to double
+  %.61.i.i = fmul double %.38.i, %.60.i.i
+  %.63.i.i = fadd double %"$phi52.0.2.0.i.i", %.61.i.i
+  %.65.i.i = fcmp ugt double %.63.i.i, %.10
+  br i1 %.65.i.i, label %B0.endif, label %B108.i.i
+
+B108.i.i:
+  %lsr.iv83.in = phi i64 [ %lsr.iv83, %B108.i.i ], [ %.13.i.i.i, %B0 ]
+  %lsr.iv83 = add i64 %lsr.iv83.in, 1
+  %.74.i.i = uitofp nneg i64 %lsr.iv83 to double
+  %.75.i.i = fmul double %.38.i, %.74.i.i
+  %.77.i.i = fadd double %"$phi52.0.2.0.i.i", %.75.i.i
+  %.79.i.i = fcmp ugt double %.77.i.i, %.10
+  br i1 %.79.i.i, label %B0.endif, label %B108.i.i
+
+B84:
+  %.61 = getelementptr i8, ptr %arg.r, i64 376
+  %.63 = load double, ptr %.61, align 8
+  %.65 = fcmp ogt double %.10, %.63
+  br i1 %.65, label %B106.endif, label %B242
+
+B180:
+  %.145 = getelementptr i8, ptr %arg.r, i64 464
+  %.147 = load double, ptr %.145, align 8
+  %.149 = fcmp ugt double %.94.pre-phi.i.i, %.147
+  br i1 %.149, label %B242, label %B202
+
+B202:
+  store double 0.000000e+00, ptr %.157, align 8
+  %.161 = call i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.157, ptr nonnull %excinfo.4, ptr nonnull %arg.r, double %.10, double %.94.pre-phi.i.i)
+  switch i32 %.161, label %B202.if.if [
+    i32 -2, label %B202.endif
+    i32 0, label %B202.endif
+  ], !prof !8
+
+B242:
+  %"$phi242.0.3.0" = phi i1 [ %.182, %B202.endif ], [ false, %B180 ], [ false, %B84 ], [ false, %B0.endif ]
+  %.193 = fcmp oeq double %.42, 0.000000e+00
+  br i1 %.193, label %B256, label %B368
+
+B242.thread:
+  %.19320 = fcmp oeq double %.42, 0.000000e+00
+  br i1 %.19320, label %B352.endif, label %B368
+
+B256:
+  br i1 %"$phi242.0.3.0", label %B272.endif.endif, label %B352.endif
+
+B368:
+  %"$phi242.0.3.022" = phi i1 [ false, %B242.thread ], [ %"$phi242.0.3.0", %B242 ]
+  %.39.i = fadd double %"$phi52.0.2.0.i.i", %.42
+  %.15.i.i16 = fsub double %.10, %.39.i
+  %.20.i.i17 = fdiv double %.15.i.i16, %.38.i
+  %.21.i.i18 = tail call double @llvm.floor.f64(double %.20.i.i17)
+  %.22.i.i19 = fptosi double %.21.i.i18 to i64
+  %.13.i.i.i20 = tail call i64 @llvm.smax.i64(i64 %.22.i.i19, i64 0)
+  %.60.i.i21 = uitofp nneg i64 %.13.i.i.i20 to double
+  %.61.i.i22 = fmul double %.38.i, %.60.i.i21
+  %.63.i.i23 = fadd double %.39.i, %.61.i.i22
+  %.65.i.i24 = fcmp ugt double %.63.i.i23, %.10
+  br i1 %.65.i.i24, label %B368.endif, label %B108.i.i25
+
+B108.i.i25:
+  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i25 ], [ %.13.i.i.i20, %B368 ]
+  %lsr.iv = add i64 %lsr.iv.in, 1
+  %.74.i.i28 = uitofp nneg i64 %lsr.iv to double
+  %.75.i.i29 = fmul double %.38.i, %.74.i.i28
+  %.77.i.i30 = fadd double %.39.i, %.75.i.i29
+  %.79.i.i31 = fcmp ugt double %.77.i.i30, %.10
+  br i1 %.79.i.i31, label %B368.endif, label %B108.i.i25
+
+B494:
+  %.7.i33 = fsub double %.94.pre-phi.i.i, %.94.pre-phi.i.i32
+  %.8.i34 = getelementptr i8, ptr %arg.r, i64 248
+  %.10.i35 = load double, ptr %.8.i34, align 8, !noalias !249
+  %.14.i36 = fdiv double %.7.i33, %.10.i35
+  %.15.i37 = fadd double %.14.i36, -1.000000e-09
+  %.23.le.i38 = tail call double @llvm.ceil.f64(double %.15.i37)
+  %.12.i.i39 = fcmp ogt double %.23.le.i38, 1.000000e+00
+  %.13.i.i40 = select i1 %.12.i.i39, double %.23.le.i38, double 1.000000e+00
+  %.5.i.i41 = fptosi double %.13.i.i40 to i64
+  %.7.i65 = fsub double %.38.i, %.42
+  %.14.i68 = fdiv double %.7.i65, %.10.i35
+  %.15.i69 = fadd double %.14.i68, -1.000000e-09
+  %.23.le.i70 = tail call double @llvm.ceil.f64(double %.15.i69)
+  %.12.i.i71 = fcmp ogt double %.23.le.i70, 1.000000e+00
+  %.13.i.i72 = select i1 %.12.i.i71, double %.23.le.i70, double 1.000000e+00
+  %.5.i.i73 = fptosi double %.13.i.i72 to i64
+  %.418 = icmp eq i64 %.5.i.i41, %.5.i.i73
+  br i1 %.418, label %B512.endif.endif, label %B582.endif
+
+B0.endif:
+  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B0 ], [ %.77.i.i, %B108.i.i ]
+  %.40 = getelementptr i8, ptr %arg.r, i64 224
+  %.42 = load double, ptr %.40, align 8
+  %.53 = getelementptr i8, ptr %arg.r, i64 392
+  %.54 = load i64, ptr %.53, align 8
+  %.55 = icmp eq i64 %.54, 1
+  br i1 %.55, label %B84, label %B242
+
+common.ret:
+  %common.ret.op = phi i32 [ %.161, %B202.if.if ], [ 0, %B582.endif ], [ 0, %B352.endif ]
+  ret i32 %common.ret.op
+
+B106.endif:
+  %.12.i = fadd double %.20.i.i, 5.000000e-01
+  %.13.i = tail call double @llvm.floor.f64(double %.12.i)
+  %.14.i54 = fptosi double %.13.i to i64
+  %.15.i55 = sitofp i64 %.14.i54 to double
+  %.16.i = fmul double %.38.i, %.15.i55
+  %.17.i = fadd double %"$phi52.0.2.0.i.i", %.16.i
+  %.18.i = fcmp une double %.10, %.17.i
+  br i1 %.18.i, label %B242.thread, label %B180
+
+B202.endif:
+  %.171 = load double, ptr %.157, align 8
+  %.182 = fcmp oeq double %.171, %.94.pre-phi.i.i
+  br label %B242
+
+B202.if.if:
+  store ptr null, ptr %excinfo, align 8
+  br label %common.ret
+
+B272.endif.endif:
+  %.7.i = fsub double %.94.pre-phi.i.i, %.10
+  %.8.i2 = getelementptr i8, ptr %arg.r, i64 248
+  %.10.i3 = load double, ptr %.8.i2, align 8, !noalias !252
+  %.14.i = fdiv double %.7.i, %.10.i3
+  %.15.i = fadd double %.14.i, -1.000000e-09
+  %.23.le.i = tail call double @llvm.ceil.f64(double %.15.i)
+  %.12.i.i = fcmp ogt double %.23.le.i, 1.000000e+00
+  %.13.i.i = select i1 %.12.i.i, double %.23.le.i, double 1.000000e+00
+  %.5.i.i = fptosi double %.13.i.i to i64
+  %.14.i59 = fdiv double %.38.i, %.10.i3
+  %.15.i60 = fadd double %.14.i59, -1.000000e-09
+  %.23.le.i61 = tail call double @llvm.ceil.f64(double %.15.i60)
+  %.12.i.i62 = fcmp ogt double %.23.le.i61, 1.000000e+00
+  %.13.i.i63 = select i1 %.12.i.i62, double %.23.le.i61, double 1.000000e+00
+  %.5.i.i64 = fptosi double %.13.i.i63 to i64
+  %.272 = icmp eq i64 %.5.i.i, %.5.i.i64
+  %0 = zext i1 %.272 to i64
+  br label %B352.endif
+
+B352.endif:
+  %"$phi352.2.2.0" = phi i64 [ %0, %B272.endif.endif ], [ 0, %B256 ], [ 0, %B242.thread ]
+  store i64 %"$phi352.2.2.0", ptr %retptr, align 8
+  br label %common.ret
+
+B368.endif:
+  %.94.pre-phi.i.i32 = phi double [ %.63.i.i23, %B368 ], [ %.77.i.i30, %B108.i.i25 ]
+  %.353 = fcmp olt double %.94.pre-phi.i.i32, %.94.pre-phi.i.i
+  %or.cond = and i1 %"$phi242.0.3.022", %.353
+  br i1 %or.cond, label %B494, label %B582.endif
+
+B512.endif.endif:
+  %.7.i42 = fsub double %.94.pre-phi.i.i32, %.10
+  %.14.i45 = fdiv double %.7.i42, %.10.i35
+  %.15.i46 = fadd double %.14.i45, -1.000000e-09
+  %.23.le.i47 = tail call double @llvm.ceil.f64(double %.15.i46)
+  %.12.i.i48 = fcmp ogt double %.23.le.i47, 1.000000e+00
+  %.13.i.i49 = select i1 %.12.i.i48, double %.23.le.i47, double 1.000000e+00
+  %.5.i.i50 = fptosi double %.13.i.i49 to i64
+  %.14.i77 = fdiv double %.42, %.10.i35
+  %.15.i78 = fadd double %.14.i77, -1.000000e-09
+  %.23.le.i79 = tail call double @llvm.ceil.f64(double %.15.i78)
+  %.12.i.i80 = fcmp ogt double %.23.le.i79, 1.000000e+00
+  %.13.i.i81 = select i1 %.12.i.i80, double %.23.le.i79, double 1.000000e+00
+  %.5.i.i82 = fptosi double %.13.i.i81 to i64
+  %.497 = icmp eq i64 %.5.i.i50, %.5.i.i82
+  %1 = zext i1 %.497 to i64
+  br label %B582.endif
+
+B582.endif:
+  %"$phi582.2.2.0" = phi i64 [ %1, %B512.endif.endif ], [ 0, %B494 ], [ 0, %B368.endif ]
+  store i64 %"$phi582.2.2.0", ptr %retptr, align 8
+  br label %common.ret
+}
+
+
+define i64 @is_plain(ptr readonly %.1) local_unnamed_addr #0 {
+entry:
+  %.3 = alloca i64, align 8
+  store i64 0, ptr %.3, align 8
+  %excinfo = alloca ptr, align 8
+  %.7 = call i32 @_ZN18biped_adrc_kernels8is_plainB3v85B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
+  %cond = icmp eq i32 %.7, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
+
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
+
+common.ret:
+  %.17 = load i64, ptr %.3, align 8
+  ret i64 %.17
+}
+
+
+define i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.x, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #5 {
+B0.endif:
+  %invariant.gep = getelementptr double, ptr %arg.out, i64 %arg.lane
+  %.9841.not = icmp slt i64 %arg.size, 1
+  br i1 %.9841.not, label %B84, label %B36.lr.ph
+
+B36.lr.ph:
+  %xtraiter = and i64 %arg.size, 7
+  %0 = icmp samesign ult i64 %arg.size, 8
+  br i1 %0, label %B36.epil.preheader, label %B36.lr.ph.new
+
+B36.lr.ph.new:
+  %1 = and i64 %arg.size, 9223372036854775800
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 536
+  br label %B36
+
+B36:
+  %lsr.iv2 = phi i64 [ %lsr.iv.next3, %B36 ], [ 7, %B36.lr.ph.new ]
+  %2 = add nsw i64 %lsr.iv2, -7
+  %3 = add nsw i64 %lsr.iv2, -6
+  %4 = shl i64 %lsr.iv2, 3
+  %scevgep17 = getelementptr i8, ptr %arg.x, i64 %4
+  %scevgep18 = getelementptr i8, ptr %scevgep17, i64 -56
+  %.138 = load double, ptr %scevgep18, align 8
+  %.141 = load i64, ptr %sunkaddr, align 8
+  %.142 = mul nsw i64 %.141, %2
+  %gep = getelementptr double, ptr %invariant.gep, i64 %.142
+  store double %.138, ptr %gep, align 8
+  %5 = add nsw i64 %lsr.iv2, -5
+  %scevgep16 = getelementptr i8, ptr %scevgep17, i64 -48
+  %.138.1 = load double, ptr %scevgep16, align 8
+  %.141.1 = load i64, ptr %sunkaddr, align 8
+  %.142.1 = mul nsw i64 %.141.1, %3
+  %gep.1 = getelementptr double, ptr %invariant.gep, i64 %.142.1
+  store double %.138.1, ptr %gep.1, align 8
+  %6 = add nsw i64 %lsr.iv2, -4
+  %scevgep14 = getelementptr i8, ptr %scevgep17, i64 -40
+  %.138.2 = load double, ptr %scevgep14, align 8
+  %.141.2 = load i64, ptr %sunkaddr, align 8
+  %.142.2 = mul nsw i64 %.141.2, %5
+  %gep.2 = getelementptr double, ptr %invariant.gep, i64 %.142.2
+  store double %.138.2, ptr %gep.2, align 8
+  %7 = add nsw i64 %lsr.iv2, -3
+  %scevgep12 = getelementptr i8, ptr %scevgep17, i64 -32
+  %.138.3 = load double, ptr %scevgep12, align 8
+  %.141.3 = load i64, ptr %sunkaddr, align 8
+  %.142.3 = mul nsw i64 %.141.3, %6
+  %gep.3 = getelementptr double, ptr %invariant.gep, i64 %.142.3
+  store double %.138.3, ptr %gep.3, align 8
+  %8 = add nsw i64 %lsr.iv2, -2
+  %scevgep10 = getelementptr i8, ptr %scevgep17, i64 -24
+  %.138.4 = load double, ptr %scevgep10, align 8
+  %.141.4 = load i64, ptr %sunkaddr, align 8
+  %.142.4 = mul nsw i64 %.141.4, %7
+  %gep.4 = getelementptr double, ptr %invariant.gep, i64 %.142.4
+  store double %.138.4, ptr %gep.4, align 8
+  %9 = add nsw i64 %lsr.iv2, -1
+  %scevgep8 = getelementptr i8, ptr %scevgep17, i64 -16
+  %.138.5 = load double, ptr %scevgep8, align 8
+  %.141.5 = load i64, ptr %sunkaddr, align 8
+  %.142.5 = mul nsw i64 %.141.5, %8
+  %gep.5 = getelementptr double, ptr %invariant.gep, i64 %.142.5
+  store double %.138.5, ptr %gep.5, align 8
+  %scevgep6 = getelementptr i8, ptr %scevgep17, i64 -8
+  %.138.6 = load double, ptr %scevgep6, align 8
+  %.141.6 = load i64, ptr %sunkaddr, align 8
+  %.142.6 = mul nsw i64 %.141.6, %9
+  %gep.6 = getelementptr double, ptr %invariant.gep, i64 %.142.6
+  store double %.138.6, ptr %gep.6, align 8
+  %.138.7 = load double, ptr %scevgep17, align 8
+  %.141.7 = load i64, ptr %sunkaddr, align 8
+  %.142.7 = mul nsw i64 %.141.7, %lsr.iv2
+  %gep.7 = getelementptr double, ptr %invariant.gep, i64 %.142.7
+  store double %.138.7, ptr %gep.7, align 8
+  %lsr.iv.next3 = add nuw nsw i64 %lsr.iv2, 8
+  %10 = sub nsw i64 %lsr.iv.next3, %1
+  %niter.ncmp.7 = icmp eq i64 %10, 7
+  br i1 %niter.ncmp.7, label %B84.loopexit.unr-lcssa, label %B36
+
+B84.loopexit.unr-lcssa:
+  %lcmp.mod.not = icmp eq i64 %xtraiter, 0
+  %11 = add nuw i64 %lsr.iv2, 1
+  br i1 %lcmp.mod.not, label %B84, label %B36.epil.preheader
+
+B36.epil.preheader:
+  %.1044042.epil.init = phi i64 [ 0, %B36.lr.ph ], [ %11, %B84.loopexit.unr-lcssa ]
+  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 536
+  br label %B36.epil
+
+B36.epil:
+  %lsr.iv = phi i64 [ %lsr.iv.next, %B36.epil ], [ %xtraiter, %B36.epil.preheader ]
+  %.1044042.epil = phi i64 [ %.111.epil, %B36.epil ], [ %.1044042.epil.init, %B36.epil.preheader ]
+  %.111.epil = add nuw nsw i64 %.1044042.epil, 1
+  %12 = shl i64 %.1044042.epil, 3
+  %scevgep = getelementptr i8, ptr %arg.x, i64 %12
+  %.138.epil = load double, ptr %scevgep, align 8
+  %.141.epil = load i64, ptr %sunkaddr19, align 8
+  %.142.epil = mul nsw i64 %.141.epil, %.1044042.epil
+  %gep.epil = getelementptr double, ptr %invariant.gep, i64 %.142.epil
+  store double %.138.epil, ptr %gep.epil, align 8
+  %lsr.iv.next = add nsw i64 %lsr.iv, -1
+  %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
+  br i1 %epil.iter.cmp.not, label %B84, label %B36.epil, !llvm.loop !255
+
+B84:
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+}
+
+
+define ptr @put(ptr readonly %.1, i64 %.2, ptr readonly %.3, ptr writeonly %.4, i64 %.5) local_unnamed_addr #6 {
+entry:
+  %.7 = alloca ptr, align 8
+  store ptr null, ptr %.7, align 8
+  %.11 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4, i64 %.5) #0
+  %.21 = load ptr, ptr %.7, align 8
+  ret ptr %.21
+}
+
+
+define i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.x, ptr writeonly %arg.out, i64 %arg.size) local_unnamed_addr #5 {
+B0.endif:
+  %invariant.gep = getelementptr double, ptr %arg.x, i64 %arg.lane
+  %.9841.not = icmp slt i64 %arg.size, 1
+  br i1 %.9841.not, label %B84, label %B36.lr.ph
+
+B36.lr.ph:
+  %xtraiter = and i64 %arg.size, 7
+  %0 = icmp samesign ult i64 %arg.size, 8
+  br i1 %0, label %B36.epil.preheader, label %B36.lr.ph.new
+
+B36.lr.ph.new:
+  %1 = and i64 %arg.size, 9223372036854775800
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 536
+  br label %B36
+
+B36:
+  %lsr.iv2 = phi i64 [ %lsr.iv.next3, %B36 ], [ 7, %B36.lr.ph.new ]
+  %2 = add nsw i64 %lsr.iv2, -7
+  %3 = add nsw i64 %lsr.iv2, -6
+  %.138 = load i64, ptr %sunkaddr, align 8
+  %.139 = mul nsw i64 %.138, %2
+  %gep = getelementptr double, ptr %invariant.gep, i64 %.139
+  %.144 = load double, ptr %gep, align 8
+  %4 = shl i64 %lsr.iv2, 3
+  %scevgep17 = getelementptr i8, ptr %arg.out, i64 %4
+  %scevgep18 = getelementptr i8, ptr %scevgep17, i64 -56
+  store double %.144, ptr %scevgep18, align 8
+  %5 = add nsw i64 %lsr.iv2, -5
+  %.138.1 = load i64, ptr %sunkaddr, align 8
+  %.139.1 = mul nsw i64 %.138.1, %3
+  %gep.1 = getelementptr double, ptr %invariant.gep, i64 %.139.1
+  %.144.1 = load double, ptr %gep.1, align 8
+  %scevgep16 = getelementptr i8, ptr %scevgep17, i64 -48
+  store double %.144.1, ptr %scevgep16, align 8
+  %6 = add nsw i64 %lsr.iv2, -4
+  %.138.2 = load i64, ptr %sunkaddr, align 8
+  %.139.2 = mul nsw i64 %.138.2, %5
+  %gep.2 = getelementptr double, ptr %invariant.gep, i64 %.139.2
+  %.144.2 = load double, ptr %gep.2, align 8
+  %scevgep14 = getelementptr i8, ptr %scevgep17, i64 -40
+  store double %.144.2, ptr %scevgep14, align 8
+  %7 = add nsw i64 %lsr.iv2, -3
+  %.138.3 = load i64, ptr %sunkaddr, align 8
+  %.139.3 = mul nsw i64 %.138.3, %6
+  %gep.3 = getelementptr double, ptr %invariant.gep, i64 %.139.3
+  %.144.3 = load double, ptr %gep.3, align 8
+  %scevgep12 = getelementptr i8, ptr %scevgep17, i64 -32
+  store double %.144.3, ptr %scevgep12, align 8
+  %8 = add nsw i64 %lsr.iv2, -2
+  %.138.4 = load i64, ptr %sunkaddr, align 8
+  %.139.4 = mul nsw i64 %.138.4, %7
+  %gep.4 = getelementptr double, ptr %invariant.gep, i64 %.139.4
+  %.144.4 = load double, ptr %gep.4, align 8
+  %scevgep10 = getelementptr i8, ptr %scevgep17, i64 -24
+  store double %.144.4, ptr %scevgep10, align 8
+  %9 = add nsw i64 %lsr.iv2, -1
+  %.138.5 = load i64, ptr %sunkaddr, align 8
+  %.139.5 = mul nsw i64 %.138.5, %8
+  %gep.5 = getelementptr double, ptr %invariant.gep, i64 %.139.5
+  %.144.5 = load double, ptr %gep.5, align 8
+  %scevgep8 = getelementptr i8, ptr %scevgep17, i64 -16
+  store double %.144.5, ptr %scevgep8, align 8
+  %.138.6 = load i64, ptr %sunkaddr, align 8
+  %.139.6 = mul nsw i64 %.138.6, %9
+  %gep.6 = getelementptr double, ptr %invariant.gep, i64 %.139.6
+  %.144.6 = load double, ptr %gep.6, align 8
+  %scevgep6 = getelementptr i8, ptr %scevgep17, i64 -8
+  store double %.144.6, ptr %scevgep6, align 8
+  %.138.7 = load i64, ptr %sunkaddr, align 8
+  %.139.7 = mul nsw i64 %.138.7, %lsr.iv2
+  %gep.7 = getelementptr double, ptr %invariant.gep, i64 %.139.7
+  %.144.7 = load double, ptr %gep.7, align 8
+  store double %.144.7, ptr %scevgep17, align 8
+  %lsr.iv.next3 = add nuw nsw i64 %lsr.iv2, 8
+  %10 = sub nsw i64 %lsr.iv.next3, %1
+  %niter.ncmp.7 = icmp eq i64 %10, 7
+  br i1 %niter.ncmp.7, label %B84.loopexit.unr-lcssa, label %B36
+
+B84.loopexit.unr-lcssa:
+  %lcmp.mod.not = icmp eq i64 %xtraiter, 0
+  %11 = add nuw i64 %lsr.iv2, 1
+  br i1 %lcmp.mod.not, label %B84, label %B36.epil.preheader
+
+B36.epil.preheader:
+  %.1044042.epil.init = phi i64 [ 0, %B36.lr.ph ], [ %11, %B84.loopexit.unr-lcssa ]
+  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 536
+  br label %B36.epil
+
+B36.epil:
+  %lsr.iv = phi i64 [ %lsr.iv.next, %B36.epil ], [ %xtraiter, %B36.epil.preheader ]
+  %.1044042.epil = phi i64 [ %.111.epil, %B36.epil ], [ %.1044042.epil.init, %B36.epil.preheader ]
+  %.111.epil = add nuw nsw i64 %.1044042.epil, 1
+  %.138.epil = load i64, ptr %sunkaddr19, align 8
+  %.139.epil = mul nsw i64 %.138.epil, %.1044042.epil
+  %gep.epil = getelementptr double, ptr %invariant.gep, i64 %.139.epil
+  %.144.epil = load double, ptr %gep.epil, align 8
+  %12 = shl i64 %.1044042.epil, 3
+  %scevgep = getelementptr i8, ptr %arg.out, i64 %12
+  store double %.144.epil, ptr %scevgep, align 8
+  %lsr.iv.next = add nsw i64 %lsr.iv, -1
+  %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
+  br i1 %epil.iter.cmp.not, label %B84, label %B36.epil, !llvm.loop !256
+
+B84:
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+}
+
+
+define ptr @get(ptr readonly %.1, i64 %.2, ptr readonly %.3, ptr writeonly %.4, i64 %.5) local_unnamed_addr #6 {
+entry:
+  %.7 = alloca ptr, align 8
+  store ptr null, ptr %.7, align 8
+  %.11 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4, i64 %.5) #0
+  %.21 = load ptr, ptr %.7, align 8
+  ret ptr %.21
+}
+
+
+define i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.r) local_unnamed_addr #6 {
+B0:
+  %.7.i1 = alloca ptr, align 8
+  %.7.i = alloca ptr, align 8
+  %.7 = getelementptr i8, ptr %arg.r, i64 272
+  %.8 = load i64, ptr %.7, align 8
+  %.9 = inttoptr i64 %.8 to ptr
+  %.10 = getelementptr i8, ptr %arg.s, i64 272
+  %.11 = load i64, ptr %.10, align 8
+  %.12 = inttoptr i64 %.11 to ptr
+  %.13 = getelementptr i8, ptr %arg.r, i64 168
+  %.14 = load i64, ptr %.13, align 8
+  %.11.i = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.9, ptr %.12, i64 %.14) #0
+  %.16 = getelementptr i8, ptr %arg.r, i64 312
+  %.17 = load i64, ptr %.16, align 8
+  %.18 = inttoptr i64 %.17 to ptr
+  %.19 = getelementptr i8, ptr %arg.s, i64 312
+  %.20 = load i64, ptr %.19, align 8
+  %.21 = inttoptr i64 %.20 to ptr
+  %.22 = getelementptr i8, ptr %arg.r, i64 176
+  %.23 = load i64, ptr %.22, align 8
+  %.11.i2 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.18, ptr %.21, i64 %.23) #0
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+}
+
+
+define ptr @number(ptr readonly %.1, i64 %.2, ptr readonly %.3) local_unnamed_addr #6 {
+entry:
+  %.5 = alloca ptr, align 8
+  %.9 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3) #0
+  %.19 = load ptr, ptr %.5, align 8
+  ret ptr %.19
+}
+
+
+define i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.r, ptr readonly %arg.block) local_unnamed_addr #6 {
+common.ret:
+  %.7.i3 = alloca ptr, align 8
+  %.7.i1 = alloca ptr, align 8
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !257
+  %.9.i = inttoptr i64 %.8.i to ptr
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !257
+  %.12.i = getelementptr i8, ptr %arg.s, i64 536
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !257
+  %.14.i = mul nsw i64 %.13.i, %.11.i
+  %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
+  %.35 = getelementptr i8, ptr %arg.r, i64 664
+  %.36 = load i64, ptr %.35, align 8
+  %.37 = inttoptr i64 %.36 to ptr
+  %.38 = getelementptr i8, ptr %arg.r, i64 80
+  %.39 = load i64, ptr %.38, align 8
+  %.11.i2 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i, ptr %.37, i64 %.39) #0
+  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !260
+  %.9.i3 = inttoptr i64 %.8.i2 to ptr
+  %.10.i = getelementptr i8, ptr %.9.i3, i64 56
+  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !260
+  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !260
+  %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
+  %.15.i8 = getelementptr double, ptr %arg.block, i64 %.14.i7
+  %.66 = getelementptr i8, ptr %arg.r, i64 640
+  %.67 = load i64, ptr %.66, align 8
+  %.68 = inttoptr i64 %.67 to ptr
+  %.69 = getelementptr i8, ptr %arg.r, i64 136
+  %.70 = load i64, ptr %.69, align 8
+  %.11.i5 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i3, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i8, ptr %.68, i64 %.70) #0
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+}
+
+
+define ptr @leave(ptr readonly %.1, i64 %.2, ptr readonly %.3, ptr readonly %.4) local_unnamed_addr #6 {
+entry:
+  %.6 = alloca ptr, align 8
+  %.10 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
+}
+
+
+define i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #7 {
+B0:
+  %.6.i = getelementptr i8, ptr %arg.r, i64 344
+  %.8.i = load double, ptr %.6.i, align 8, !noalias !263
+  %.8.i.i = getelementptr i8, ptr %arg.r, i64 152
+  %.9.i.i = load i64, ptr %.8.i.i, align 8, !noalias !266
+  %.10.i.i = icmp eq i64 %.9.i.i, 1
+  %"$phi52.0.2.0.in.v.i.i" = select i1 %.10.i.i, i64 376, i64 232
+  %"$phi52.0.2.0.in.i.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i"
+  %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !266
+  %.36.i = getelementptr i8, ptr %arg.r, i64 216
+  %.38.i = load double, ptr %.36.i, align 8, !noalias !263
+  %.15.i.i = fsub double %.8.i, %"$phi52.0.2.0.i.i"
+  %.20.i.i = fdiv double %.15.i.i, %.38.i
+  %.21.i.i = tail call double @llvm.floor.f64(double %.20.i.i)
+  %.22.i.i = fptosi double %.21.i.i to i64
+  %.13.i.i.i = tail call i64 @llvm.smax.i64(i64 %.22.i.i, i64 0)
+  %.60.i.i = uitofp nneg i64 %.13.i.i.i to double
+  %.61.i.i = fmul double %.38.i, %.60.i.i
+  %.63.i.i = fadd double %"$phi52.0.2.0.i.i", %.61.i.i
+  %.65.i.i = fcmp ugt double %.63.i.i, %.8.i
+  br i1 %.65.i.i, label %B0.endif, label %B108.i.i
+
+B108.i.i:
+  %lsr.iv47.in = phi i64 [ %lsr.iv47, %B108.i.i ], [ %.13.i.i.i, %B0 ]
+  %lsr.iv47 = add i64 %lsr.iv47.in, 1
+  %.74.i.i = uitofp nneg i64 %lsr.iv47 to double
+  %.75.i.i = fmul double %.38.i, %.74.i.i
+  %.77.i.i = fadd double %"$phi52.0.2.0.i.i", %.75.i.i
+  %.79.i.i = fcmp ugt double %.77.i.i, %.8.i
+  br i1 %.79.i.i, label %B0.endif, label %B108.i.i
+
+B76:
+  %.8.i2 = load double, ptr %.6.i, align 8, !noalias !269
+  %.9.i.i4 = load i64, ptr %.8.i.i, align 8, !noalias !272
+  %.10.i.i5 = icmp eq i64 %.9.i.i4, 1
+  %"$phi52.0.2.0.in.v.i.i6" = select i1 %.10.i.i5, i64 376, i64 232
+  %"$phi52.0.2.0.in.i.i7" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i6"
+  %"$phi52.0.2.0.i.i8" = load double, ptr %"$phi52.0.2.0.in.i.i7", align 8, !noalias !272
+  %.39.i = fadd double %.58, %"$phi52.0.2.0.i.i8"
+  %.42.i = load double, ptr %.36.i, align 8, !noalias !269
+  %.15.i.i11 = fsub double %.8.i2, %.39.i
+  %.20.i.i12 = fdiv double %.15.i.i11, %.42.i
+  %.21.i.i13 = tail call double @llvm.floor.f64(double %.20.i.i12)
+  %.22.i.i14 = fptosi double %.21.i.i13 to i64
+  %.13.i.i.i15 = tail call i64 @llvm.smax.i64(i64 %.22.i.i14, i64 0)
+  %.60.i.i16 = uitofp nneg i64 %.13.i.i.i15 to double
+  %.61.i.i17 = fmul double %.42.i, %.60.i.i16
+  %.63.i.i18 = fadd double %.39.i, %.61.i.i17
+  %.65.i.i19 = fcmp ugt double %.63.i.i18, %.8.i2
+  br i1 %.65.i.i19, label %common.ret, label %B108.i.i20
+
+B108.i.i20:
+  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i20 ], [ %.13.i.i.i15, %B76 ]
+  %lsr.iv = add i64 %lsr.iv.in, 1
+  %.74.i.i23 = uitofp nneg i64 %lsr.iv to double
+  %.75.i.i24 = fmul double %.42.i, %.74.i.i23
+  %.77.i.i25 = fadd double %.39.i, %.75.i.i24
+  %.79.i.i26 = fcmp ugt double %.77.i.i25, %.8.i2
+  br i1 %.79.i.i26, label %common.ret, label %B108.i.i20
+
+B0.endif:
+  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B0 ], [ %.77.i.i, %B108.i.i ]
+  %.53 = getelementptr double, ptr %arg.block, i64 %arg.lane
+  store double %.8.i, ptr %.53, align 8
+  %.56 = getelementptr i8, ptr %arg.r, i64 224
+  %.58 = load double, ptr %.56, align 8
+  %.59 = fcmp ogt double %.58, 0.000000e+00
+  br i1 %.59, label %B76, label %common.ret
+
+common.ret:
+  %"$phi108.0.2.0" = phi double [ %.94.pre-phi.i.i, %B0.endif ], [ %.63.i.i18, %B76 ], [ %.77.i.i25, %B108.i.i20 ]
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !275
+  %.9.i = inttoptr i64 %.8.i28 to ptr
+  %.10.i = getelementptr i8, ptr %.9.i, i64 88
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !275
+  %.12.i = getelementptr i8, ptr %arg.s, i64 536
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !275
+  %.14.i = mul nsw i64 %.13.i, %.11.i
+  %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
+  %.124 = getelementptr double, ptr %.15.i, i64 %arg.lane
+  store double %"$phi108.0.2.0", ptr %.124, align 8
+  %.8.i30 = load i64, ptr %.7.i, align 8, !noalias !278
+  %.9.i31 = inttoptr i64 %.8.i30 to ptr
+  %.10.i32 = getelementptr i8, ptr %.9.i31, i64 96
+  %.11.i33 = load i64, ptr %.10.i32, align 8, !noalias !278
+  %.13.i35 = load i64, ptr %.12.i, align 8, !noalias !278
+  %.14.i36 = mul nsw i64 %.13.i35, %.11.i33
+  %.15.i37 = getelementptr double, ptr %arg.block, i64 %.14.i36
+  %.157 = getelementptr double, ptr %.15.i37, i64 %arg.lane
+  store double %.94.pre-phi.i.i, ptr %.157, align 8
+  %.8.i39 = load i64, ptr %.7.i, align 8, !noalias !281
+  %.9.i40 = inttoptr i64 %.8.i39 to ptr
+  %.10.i41 = getelementptr i8, ptr %.9.i40, i64 64
+  %.11.i42 = load i64, ptr %.10.i41, align 8, !noalias !281
+  %.13.i44 = load i64, ptr %.12.i, align 8, !noalias !281
+  %.14.i45 = mul nsw i64 %.13.i44, %.11.i42
+  %.15.i46 = getelementptr double, ptr %arg.block, i64 %.14.i45
+  %.193 = getelementptr double, ptr %.15.i46, i64 %arg.lane
+  store double 1.000000e+00, ptr %.193, align 8
+  %.198 = getelementptr i8, ptr %arg.r, i64 408
+  %.199 = load i64, ptr %.198, align 8
+  %.201 = getelementptr i8, ptr %arg.r, i64 416
+  store i64 %.199, ptr %.201, align 8
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+}
+
+
+define ptr @begin_sample(ptr readonly %.1, i64 %.2, ptr %.3, ptr writeonly %.4) local_unnamed_addr #6 {
+entry:
+  %.6 = alloca ptr, align 8
+  store ptr null, ptr %.6, align 8
+  %.10 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
+}
+
+
+define i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #6 {
+common.ret:
+  %.6.i = alloca ptr, align 8
+  %.7.i7 = alloca ptr, align 8
+  %.7.i3 = alloca ptr, align 8
+  %.7.i1 = alloca ptr, align 8
+  %.8 = getelementptr i8, ptr %arg.r, i64 664
+  %.9 = load i64, ptr %.8, align 8
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !284
+  %.9.i = inttoptr i64 %.8.i to ptr
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !284
+  %.12.i = getelementptr i8, ptr %arg.s, i64 536
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !284
+  %.14.i = mul nsw i64 %.13.i, %.11.i
+  %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
+  %.10 = inttoptr i64 %.9 to ptr
+  %.38 = getelementptr i8, ptr %arg.r, i64 80
+  %.39 = load i64, ptr %.38, align 8
+  %.11.i2 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.10, ptr %.15.i, i64 %.39) #0
+  %.41 = getelementptr i8, ptr %arg.r, i64 640
+  %.42 = load i64, ptr %.41, align 8
+  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !287
+  %.9.i3 = inttoptr i64 %.8.i2 to ptr
+  %.10.i = getelementptr i8, ptr %.9.i3, i64 56
+  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !287
+  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !287
+  %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
+  %.15.i8 = getelementptr double, ptr %arg.block, i64 %.14.i7
+  %.43 = inttoptr i64 %.42 to ptr
+  %.69 = getelementptr i8, ptr %arg.r, i64 136
+  %.70 = load i64, ptr %.69, align 8
+  %.11.i5 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i3, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.43, ptr %.15.i8, i64 %.70) #0
+  %.72 = getelementptr i8, ptr %arg.r, i64 352
+  %.74 = load double, ptr %.72, align 8
+  %.75 = getelementptr i8, ptr %arg.r, i64 360
+  %.77 = load double, ptr %.75, align 8
+  %.79 = load i64, ptr %.12.i, align 8
+  %0 = getelementptr double, ptr %arg.block, i64 %.79
+  %.81 = getelementptr double, ptr %0, i64 %arg.lane
+  store double %.74, ptr %.81, align 8
+  %.84 = load i64, ptr %.12.i, align 8
+  %.idx = shl i64 %.84, 4
+  %1 = getelementptr i8, ptr %arg.block, i64 %.idx
+  %.87 = getelementptr double, ptr %1, i64 %arg.lane
+  store double %.77, ptr %.87, align 8
+  %.89 = getelementptr i8, ptr %arg.r, i64 480
+  %.91 = load double, ptr %.89, align 8
+  %.8.i10 = load i64, ptr %.7.i, align 8, !noalias !290
+  %.9.i11 = inttoptr i64 %.8.i10 to ptr
+  %.10.i12 = getelementptr i8, ptr %.9.i11, i64 32
+  %.11.i13 = load i64, ptr %.10.i12, align 8, !noalias !290
+  %.13.i15 = load i64, ptr %.12.i, align 8, !noalias !290
+  %.14.i16 = mul nsw i64 %.13.i15, %.11.i13
+  %.15.i17 = getelementptr double, ptr %arg.block, i64 %.14.i16
+  %.117 = getelementptr double, ptr %.15.i17, i64 %arg.lane
+  store double %.91, ptr %.117, align 8
+  %.119 = getelementptr i8, ptr %arg.r, i64 264
+  %.121 = load double, ptr %.119, align 8
+  %.8.i19 = load i64, ptr %.7.i, align 8, !noalias !293
+  %.9.i20 = inttoptr i64 %.8.i19 to ptr
+  %.10.i21 = getelementptr i8, ptr %.9.i20, i64 40
+  %.11.i22 = load i64, ptr %.10.i21, align 8, !noalias !293
+  %.13.i24 = load i64, ptr %.12.i, align 8, !noalias !293
+  %.14.i25 = mul nsw i64 %.13.i24, %.11.i22
+  %.15.i26 = getelementptr double, ptr %arg.block, i64 %.14.i25
+  %.147 = getelementptr double, ptr %.15.i26, i64 %arg.lane
+  store double %.121, ptr %.147, align 8
+  %.149 = getelementptr i8, ptr %arg.r, i64 296
+  %.150 = load i64, ptr %.149, align 8
+  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !296
+  %.9.i29 = inttoptr i64 %.8.i28 to ptr
+  %.10.i30 = getelementptr i8, ptr %.9.i29, i64 48
+  %.11.i31 = load i64, ptr %.10.i30, align 8, !noalias !296
+  %.13.i33 = load i64, ptr %.12.i, align 8, !noalias !296
+  %.14.i34 = mul nsw i64 %.13.i33, %.11.i31
+  %.15.i35 = getelementptr double, ptr %arg.block, i64 %.14.i34
+  %.151 = inttoptr i64 %.150 to ptr
+  %.177 = getelementptr i8, ptr %arg.r, i64 72
+  %.178 = load i64, ptr %.177, align 8
+  %.11.i8 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i7, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr readonly %.151, ptr %.15.i35, i64 %.178) #0
+  %.10.i10 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr nonnull %arg.r, ptr nonnull %arg.block) #0
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+}
+
+
+define ptr @enter(ptr readonly %.1, i64 %.2, ptr %.3, ptr writeonly %.4) local_unnamed_addr #6 {
+entry:
+  %.6 = alloca ptr, align 8
+  %.10 = call i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
+}
+
+define i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s) local_unnamed_addr {
+B0:
+  %.7.i1 = alloca ptr, align 8
+  %.8 = getelementptr i8, ptr %arg.s, i64 64
+  %.9 = load i64, ptr %.8, align 8
+  %.10.not = icmp eq i64 %.9, 0
+  br i1 %.10.not, label %common.ret, label %B28.endif.endif
+
+B274:
+  %.1675153 = phi i64 [ %.174, %B696 ], [ 0, %B274.preheader ]
+  %.174 = add nuw nsw i64 %.1675153, 1
+  %.204 = load i64, ptr %sunkaddr, align 8
+  %.205 = inttoptr i64 %.204 to ptr
+  %0 = shl i64 %.1675153, 3
+  %scevgep5 = getelementptr i8, ptr %.205, i64 %0
+  %.208 = load i64, ptr %scevgep5, align 8
+  %.209.not = icmp eq i64 %.208, 0
+  br i1 %.209.not, label %B696, label %B310.endif
+
+B696:
+  %exitcond.not = icmp eq i64 %.13.i, %.174
+  br i1 %exitcond.not, label %common.ret, label %B274
+
+common.ret:
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+
+B28.endif.endif:
+  %.16 = getelementptr i8, ptr %arg.s, i64 272
+  %.17 = load i64, ptr %.16, align 8
+  %.18 = inttoptr i64 %.17 to ptr
+  %.20 = getelementptr i8, ptr %arg.s, i64 568
+  %.21 = load i64, ptr %.20, align 8
+  %.22 = inttoptr i64 %.21 to ptr
+  %.24 = getelementptr i8, ptr %arg.s, i64 576
+  %.25 = load i64, ptr %.24, align 8
+  %.26 = inttoptr i64 %.25 to ptr
+  %.27 = inttoptr i64 %.9 to ptr
+  tail call void %.27(ptr %.18, ptr %.22, ptr %.26)
+  %.32 = load i64, ptr %.20, align 8
+  %.33 = inttoptr i64 %.32 to ptr
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !299
+  %.9.i = inttoptr i64 %.8.i to ptr
+  %.10.i = getelementptr i8, ptr %.9.i, i64 8
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !299
+  %.12.i = getelementptr i8, ptr %arg.s, i64 536
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !299
+  %.14.i = mul i64 %.13.i, %.11.i
+  %.15.i = getelementptr double, ptr %.33, i64 %.14.i
+  %.62 = getelementptr i8, ptr %arg.s, i64 72
+  %.63 = load i64, ptr %.62, align 8
+  %.67 = mul i64 %.63, %.13.i
+  %.68 = getelementptr double, ptr %.15.i, i64 %.67
+  %.70 = getelementptr i8, ptr %arg.s, i64 432
+  %.71 = load i64, ptr %.70, align 8
+  %.72 = add nsw i64 %.71, -4
+  %.16152.not = icmp slt i64 %.13.i, 1
+  br i1 %.16152.not, label %common.ret, label %B274.preheader
+
+B274.preheader:
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 584
+  br label %B274
+
+B310.endif:
+  %.218 = inttoptr i64 %.208 to ptr
+  %.219 = getelementptr i8, ptr %.218, i64 600
+  %.220 = load i64, ptr %.219, align 8
+  %.221 = inttoptr i64 %.220 to ptr
+  %.222 = getelementptr i8, ptr %.218, i64 408
+  %.223 = load i64, ptr %.222, align 8
+  %.224 = getelementptr i8, ptr %.218, i64 432
+  %.225 = load i64, ptr %.224, align 8
+  %.226 = mul nsw i64 %.225, %.223
+  %.227 = getelementptr double, ptr %.221, i64 %.226
+  %.230 = load i64, ptr %.20, align 8
+  %.231 = inttoptr i64 %.230 to ptr
+  %scevgep4 = getelementptr i8, ptr %.231, i64 %0
+  %.234 = load double, ptr %scevgep4, align 8
+  %.235 = getelementptr i8, ptr %.218, i64 352
+  %.237 = load double, ptr %.235, align 8
+  store double %.234, ptr %.227, align 8
+  %.240 = getelementptr i8, ptr %.227, i64 8
+  store double %.237, ptr %.240, align 8
+  %scevgep3 = getelementptr i8, ptr %.68, i64 %0
+  %.245 = load double, ptr %scevgep3, align 8
+  %.248 = load i64, ptr %.12.i, align 8
+  %1 = shl i64 %.248, 3
+  %scevgep = getelementptr i8, ptr %.68, i64 %1
+  %scevgep2 = getelementptr i8, ptr %scevgep, i64 %0
+  %.253 = load double, ptr %scevgep2, align 8
+  %.254 = getelementptr i8, ptr %.227, i64 16
+  store double %.245, ptr %.254, align 8
+  %.256 = getelementptr i8, ptr %.227, i64 24
+  store double %.253, ptr %.256, align 8
+  %.260 = load i64, ptr %.24, align 8
+  %.261 = inttoptr i64 %.260 to ptr
+  %.262 = getelementptr i8, ptr %.227, i64 32
+  %.11.i2 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.1675153, ptr readonly %.261, ptr %.262, i64 %.72) #0
+  %.270 = load i64, ptr %.222, align 8
+  %.271 = add nsw i64 %.270, 1
+  %.272 = getelementptr i8, ptr %.218, i64 424
+  %.273 = load i64, ptr %.272, align 8
+  %.274 = add nsw i64 %.273, -1
+  %.13.i1 = tail call i64 @llvm.smin.i64(i64 %.274, i64 %.271)
+  store i64 %.13.i1, ptr %.222, align 8
+  br label %B696
+}
+
+
+define ptr @store_nodes(ptr readonly %.1) local_unnamed_addr #0 {
+entry:
+  %.3 = alloca ptr, align 8
+  store ptr null, ptr %.3, align 8
+  %.7 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
+  %.17 = load ptr, ptr %.3, align 8
+  ret ptr %.17
+}
+
+
+define i32 @_ZN18biped_adrc_kernels3aimB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, i64 %arg.j, i64 %arg.count, ptr readonly %arg.t0, ptr readonly %arg.t_next) local_unnamed_addr #0 {
+B0.endif.endif:
+  %.326 = alloca [4 x double], align 8
+  %excinfo.5 = alloca ptr, align 8
+  %.20 = getelementptr i8, ptr %arg.s, i64 568
+  %.21 = load i64, ptr %.20, align 8
+  %.22 = inttoptr i64 %.21 to ptr
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !302
+  %.9.i = inttoptr i64 %.8.i to ptr
+  %.10.i = getelementptr i8, ptr %.9.i, i64 80
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !302
+  %.12.i = getelementptr i8, ptr %arg.s, i64 536
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !302
+  %.14.i = mul i64 %.13.i, %.11.i
+  %.15.i = getelementptr double, ptr %.22, i64 %.14.i
+  %.143101.not = icmp slt i64 %.13.i, 1
+  br i1 %.143101.not, label %common.ret, label %B114.lr.ph
+
+B114:
+  %.14997102 = phi i64 [ 0, %B114.lr.ph ], [ %.156, %B560 ]
+  %.156 = add nuw nsw i64 %.14997102, 1
+  %0 = shl i64 %.14997102, 3
+  br i1 %1, label %B128, label %B166
+
+B128:
+  %scevgep40 = getelementptr i8, ptr %arg.t0, i64 %0
+  %.191 = load double, ptr %scevgep40, align 8
+  %.195 = load double, ptr %sunkaddr, align 8
+  %.198 = fmul double %.195, %.197
+  %.199 = fadd double %.191, %.198
+  %scevgep = getelementptr i8, ptr %arg.t_next, i64 %0
+  %.221.pre = load double, ptr %scevgep, align 8
+  br label %B180.endif.endif.endif
+
+B166:
+  %scevgep29 = getelementptr i8, ptr %arg.t_next, i64 %0
+  %.207 = load double, ptr %scevgep29, align 8
+  br label %B180.endif.endif.endif
+
+B344:
+  %.316 = load double, ptr %sunkaddr41, align 8
+  %scevgep35 = getelementptr i8, ptr %.22, i64 %0
+  %.320 = load double, ptr %scevgep35, align 8
+  %.322 = fsub double %"$phi180.1.2.1", %.320
+  %.325 = fmul double %.316, %.322
+  %.330 = call i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr nonnull %.326, ptr nonnull %excinfo.5, double %.325)
+  switch i32 %.330, label %common.ret [
+    i32 -2, label %B344.endif
+    i32 0, label %B344.endif
+  ], !prof !8
+
+B560:
+  %exitcond.not = icmp eq i64 %.13.i, %.156
+  br i1 %exitcond.not, label %common.ret, label %B114
+
+common.ret:
+  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %retptr, %B560 ], [ %excinfo, %B344 ]
+  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ 0, %B560 ], [ %.330, %B344 ]
+  store ptr null, ptr %excinfo.sink, align 8
+  ret i32 %common.ret.op
+
+B114.lr.ph:
+  %.197 = sitofp i64 %arg.j to double
+  %1 = icmp slt i64 %arg.j, %arg.count
+  %sunkaddr44 = getelementptr i8, ptr %arg.s, i64 160
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 248
+  %sunkaddr41 = getelementptr i8, ptr %arg.s, i64 256
+  %sunkaddr45 = getelementptr inbounds nuw i8, ptr %.326, i64 24
+  %sunkaddr46 = getelementptr inbounds nuw i8, ptr %.326, i64 16
+  %sunkaddr47 = getelementptr inbounds nuw i8, ptr %.326, i64 8
+  br label %B114
+
+B180.endif.endif.endif:
+  %.221 = phi double [ %.207, %B166 ], [ %.221.pre, %B128 ]
+  %"$phi180.1.2.1" = phi double [ %.207, %B166 ], [ %.199, %B128 ]
+  %.15.i10 = tail call double @nextafter(double %.221, double 0xFFF0000000000000), !noalias !305
+  %.8.i12 = load i64, ptr %.7.i, align 8, !noalias !308
+  %.9.i13 = inttoptr i64 %.8.i12 to ptr
+  %.10.i14 = getelementptr i8, ptr %.9.i13, i64 16
+  %.11.i15 = load i64, ptr %.10.i14, align 8, !noalias !308
+  %.13.i17 = load i64, ptr %.12.i, align 8, !noalias !308
+  %2 = shl i64 %.11.i15, 3
+  %3 = mul i64 %2, %.13.i17
+  %scevgep38 = getelementptr i8, ptr %.22, i64 %3
+  %scevgep39 = getelementptr i8, ptr %scevgep38, i64 %0
+  store double %"$phi180.1.2.1", ptr %scevgep39, align 8
+  %.8.i21 = load i64, ptr %.7.i, align 8, !noalias !311
+  %.9.i22 = inttoptr i64 %.8.i21 to ptr
+  %.10.i23 = getelementptr i8, ptr %.9.i22, i64 24
+  %.11.i24 = load i64, ptr %.10.i23, align 8, !noalias !311
+  %.13.i26 = load i64, ptr %.12.i, align 8, !noalias !311
+  %4 = shl i64 %.11.i24, 3
+  %5 = mul i64 %4, %.13.i26
+  %scevgep36 = getelementptr i8, ptr %.22, i64 %5
+  %scevgep37 = getelementptr i8, ptr %scevgep36, i64 %0
+  store double %.15.i10, ptr %scevgep37, align 8
+  %.309 = load i64, ptr %sunkaddr44, align 8
+  %.310 = icmp sgt i64 %.309, 0
+  br i1 %.310, label %B344, label %B560
+
+B344.endif:
+  %.340.fca.3.load = load double, ptr %sunkaddr45, align 8
+  %.340.fca.2.load = load double, ptr %sunkaddr46, align 8
+  %.340.fca.1.load = load double, ptr %sunkaddr47, align 8
+  %.340.fca.0.load = load double, ptr %.326, align 8
+  %scevgep34 = getelementptr i8, ptr %.15.i, i64 %0
+  store double %.340.fca.0.load, ptr %scevgep34, align 8
+  %.358 = load i64, ptr %.12.i, align 8
+  %6 = shl i64 %.358, 3
+  %scevgep32 = getelementptr i8, ptr %.15.i, i64 %6
+  %scevgep33 = getelementptr i8, ptr %scevgep32, i64 %0
+  store double %.340.fca.1.load, ptr %scevgep33, align 8
+  %.372 = load i64, ptr %.12.i, align 8
+  %.idx = shl i64 %.372, 4
+  %7 = getelementptr i8, ptr %.15.i, i64 %.idx
+  %scevgep31 = getelementptr i8, ptr %7, i64 %0
+  store double %.340.fca.2.load, ptr %scevgep31, align 8
+  %.381 = load i64, ptr %.12.i, align 8
+  %.idx86 = mul i64 %.381, 24
+  %8 = getelementptr i8, ptr %.15.i, i64 %.idx86
+  %scevgep30 = getelementptr i8, ptr %8, i64 %0
+  store double %.340.fca.3.load, ptr %scevgep30, align 8
+  br label %B560
+}
+
+
+define ptr @aim(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr readonly %.5) local_unnamed_addr #0 {
+entry:
+  %.7 = alloca ptr, align 8
+  store ptr null, ptr %.7, align 8
+  %excinfo = alloca ptr, align 8
+  %.11 = call i32 @_ZN18biped_adrc_kernels3aimB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #0
+  %cond = icmp eq i32 %.11, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
+
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
+
+common.ret:
+  %.21 = load ptr, ptr %.7, align 8
+  ret ptr %.21
+}
+
+define i32 @_ZN18biped_adrc_kernels6flightB4v110B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, ptr readonly %arg.t0, i64 %arg.until, i64 %arg.count) local_unnamed_addr {
+B0.endif.endif:
+  %.3.i = alloca ptr, align 8
+  %.228 = alloca ptr, align 8
+  %excinfo.3 = alloca ptr, align 8
+  %.16 = getelementptr i8, ptr %arg.s, i64 568
+  %.17 = load i64, ptr %.16, align 8
+  %.18 = inttoptr i64 %.17 to ptr
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !314
+  %.9.i = inttoptr i64 %.8.i to ptr
+  %.10.i = getelementptr i64, ptr %.9.i, i64 %arg.until
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !314
+  %.12.i = getelementptr i8, ptr %arg.s, i64 536
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !314
+  %.14.i = mul nsw i64 %.13.i, %.11.i
+  %.15.i = getelementptr double, ptr %.18, i64 %.14.i
+  %.13049.not = icmp slt i64 %arg.count, 1
+  br i1 %.13049.not, label %common.ret, label %B88.endif.preheader
+
+B88.endif.preheader:
+  %sunkaddr17 = getelementptr i8, ptr %arg.s, i64 24
+  %sunkaddr18 = getelementptr i8, ptr %arg.s, i64 272
+  br label %B88.endif
+
+B320:
+  %.257 = load i64, ptr %arg.s, align 8
+  %.260 = load i64, ptr %sunkaddr18, align 8
+  %.261 = inttoptr i64 %.260 to ptr
+  %.264 = load i64, ptr %.16, align 8
+  %.265 = inttoptr i64 %.264 to ptr
+  %.270 = inttoptr i64 %.257 to ptr
+  tail call void %.270(ptr %.261, ptr %.265, ptr %.265)
+  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
+  br label %B426
+
+B426:
+  %exitcond = icmp eq i64 %.1364750, %arg.count
+  br i1 %exitcond, label %common.ret, label %B88.endif
+
+common.ret:
+  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %retptr, %B426 ], [ %excinfo, %B88.endif ]
+  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ 0, %B426 ], [ %.232, %B88.endif ]
+  store ptr null, ptr %excinfo.sink, align 8
+  ret i32 %common.ret.op
+
+B88.endif:
+  %.1364750 = phi i64 [ %.143, %B426 ], [ 1, %B88.endif.preheader ]
+  %.143 = add nuw i64 %.1364750, 1
+  %.172 = tail call ptr @aim(ptr nonnull %arg.s, i64 %.1364750, i64 %arg.count, ptr %arg.t0, ptr %.15.i)
+  %.175 = load i64, ptr %sunkaddr17, align 8
+  %.178 = load i64, ptr %sunkaddr18, align 8
+  %.179 = inttoptr i64 %.178 to ptr
+  %.182 = load i64, ptr %.16, align 8
+  %.183 = inttoptr i64 %.182 to ptr
+  %.188 = inttoptr i64 %.175 to ptr
+  tail call void %.188(ptr %.179, ptr %.183, ptr %.183)
+  %.194 = load i64, ptr %.16, align 8
+  %.195 = inttoptr i64 %.194 to ptr
+  %.8.i5 = load i64, ptr %.7.i, align 8, !noalias !317
+  %.9.i6 = inttoptr i64 %.8.i5 to ptr
+  %.10.i7 = getelementptr i8, ptr %.9.i6, i64 16
+  %.11.i8 = load i64, ptr %.10.i7, align 8, !noalias !317
+  %.13.i10 = load i64, ptr %.12.i, align 8, !noalias !317
+  %.14.i11 = mul nsw i64 %.13.i10, %.11.i8
+  %.15.i12 = getelementptr double, ptr %.195, i64 %.14.i11
+  %.232 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.228, ptr nonnull %excinfo.3, ptr %.15.i12, ptr %.195, i64 %.13.i10)
+  switch i32 %.232, label %common.ret [
+    i32 -2, label %B88.endif.endif
+    i32 0, label %B88.endif.endif
+  ], !prof !8
+
+B88.endif.endif:
+  %.253 = icmp slt i64 %.1364750, %arg.count
+  br i1 %.253, label %B320, label %B426
+}
+
+
+define ptr @flight(ptr readonly %.1, ptr readonly %.2, i64 %.3, i64 %.4) local_unnamed_addr #0 {
+entry:
+  %.6 = alloca ptr, align 8
+  store ptr null, ptr %.6, align 8
+  %excinfo = alloca ptr, align 8
+  %.10 = call i32 @_ZN18biped_adrc_kernels6flightB4v110B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, ptr %.2, i64 %.3, i64 %.4) #0
+  %cond = icmp eq i32 %.10, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
+
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
+
+common.ret:
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
+}
+
+define i32 @_ZN18biped_adrc_kernels10sample_allB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s) local_unnamed_addr {
+B0:
+  %.3.i2 = alloca ptr, align 8
+  %.3.i = alloca ptr, align 8
+  %.169 = alloca ptr, align 8
+  %excinfo.4 = alloca ptr, align 8
+  %.8 = getelementptr i8, ptr %arg.s, i64 8
+  %.9 = load i64, ptr %.8, align 8
+  %.11 = getelementptr i8, ptr %arg.s, i64 272
+  %.12 = load i64, ptr %.11, align 8
+  %.13 = inttoptr i64 %.12 to ptr
+  %.15 = getelementptr i8, ptr %arg.s, i64 560
+  %.16 = load i64, ptr %.15, align 8
+  %.17 = inttoptr i64 %.16 to ptr
+  %.19 = getelementptr i8, ptr %arg.s, i64 568
+  %.20 = load i64, ptr %.19, align 8
+  %.21 = inttoptr i64 %.20 to ptr
+  %.22 = inttoptr i64 %.9 to ptr
+  tail call void %.22(ptr %.13, ptr %.17, ptr %.21)
+  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr readonly %arg.s) #0
+  %.27 = getelementptr i8, ptr %arg.s, i64 224
+  %.29 = load double, ptr %.27, align 8
+  %.30 = fcmp oeq double %.29, 0.000000e+00
+  %.34 = load i64, ptr %.15, align 8
+  br i1 %.30, label %B132.endif, label %B232.endif.endif
+
+common.ret:
+  %retptr.sink = phi ptr [ %retptr, %B232.endif.endif.endif.endif.endif.endif ], [ %retptr, %B132.endif ], [ %excinfo, %B232.endif.endif ]
+  %common.ret.op = phi i32 [ 0, %B232.endif.endif.endif.endif.endif.endif ], [ 0, %B132.endif ], [ %.173, %B232.endif.endif ]
+  store ptr null, ptr %retptr.sink, align 8
+  ret i32 %common.ret.op
+
+B132.endif:
+  %.38 = getelementptr i8, ptr %arg.s, i64 216
+  %.40 = load double, ptr %.38, align 8
+  %.8.i = getelementptr i8, ptr %arg.s, i64 248
+  %.10.i = load double, ptr %.8.i, align 8, !noalias !320
+  %.14.i = fdiv double %.40, %.10.i
+  %.15.i = fadd double %.14.i, -1.000000e-09
+  %.23.le.i = tail call double @llvm.ceil.f64(double %.15.i)
+  %.12.i.i = fcmp ogt double %.23.le.i, 1.000000e+00
+  %.13.i.i = select i1 %.12.i.i, double %.23.le.i, double 1.000000e+00
+  %.5.i.i = fptosi double %.13.i.i to i64
+  %.35 = inttoptr i64 %.34 to ptr
+  %.69 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.35, i64 12, i64 %.5.i.i)
+  br label %common.ret
+
+B232.endif.endif:
+  %.8.i1 = getelementptr i8, ptr %arg.s, i64 248
+  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !323
+  %.14.i3 = fdiv double %.29, %.10.i2
+  %.15.i4 = fadd double %.14.i3, -1.000000e-09
+  %.23.le.i5 = tail call double @llvm.ceil.f64(double %.15.i4)
+  %.12.i.i6 = fcmp ogt double %.23.le.i5, 1.000000e+00
+  %.13.i.i7 = select i1 %.12.i.i6, double %.23.le.i5, double 1.000000e+00
+  %.5.i.i8 = fptosi double %.13.i.i7 to i64
+  %.77 = inttoptr i64 %.34 to ptr
+  %.109 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.77, i64 11, i64 %.5.i.i8)
+  %.113 = load i64, ptr %.19, align 8
+  %.114 = inttoptr i64 %.113 to ptr
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i9 = load i64, ptr %.7.i, align 8, !noalias !326
+  %.9.i = inttoptr i64 %.8.i9 to ptr
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !326
+  %.12.i = getelementptr i8, ptr %arg.s, i64 536
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !326
+  %.14.i10 = mul nsw i64 %.13.i, %.11.i
+  %.15.i11 = getelementptr double, ptr %.114, i64 %.14.i10
+  %.141 = getelementptr i8, ptr %arg.s, i64 80
+  %.142 = load i64, ptr %.141, align 8
+  %.144 = getelementptr i8, ptr %arg.s, i64 88
+  %.145 = load i64, ptr %.144, align 8
+  %.146 = sub nsw i64 %.142, %.145
+  %.150 = mul nsw i64 %.146, %.13.i
+  %.151 = getelementptr double, ptr %.15.i11, i64 %.150
+  %0 = mul i64 %.145, %.13.i
+  %.160 = sub i64 0, %0
+  %.161 = getelementptr double, ptr %.151, i64 %.160
+  %.173 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.169, ptr nonnull %excinfo.4, ptr %.161, ptr %.151, i64 %0)
+  switch i32 %.173, label %common.ret [
+    i32 -2, label %B232.endif.endif.endif.endif.endif.endif
+    i32 0, label %B232.endif.endif.endif.endif.endif.endif
+  ], !prof !8
+
+B232.endif.endif.endif.endif.endif.endif:
+  %.195 = load i64, ptr %.15, align 8
+  %.200 = load i64, ptr %.19, align 8
+  %.201 = inttoptr i64 %.200 to ptr
+  %.8.i13 = load i64, ptr %.7.i, align 8, !noalias !329
+  %.9.i14 = inttoptr i64 %.8.i13 to ptr
+  %.10.i15 = getelementptr i8, ptr %.9.i14, i64 96
+  %.11.i16 = load i64, ptr %.10.i15, align 8, !noalias !329
+  %.13.i18 = load i64, ptr %.12.i, align 8, !noalias !329
+  %.14.i19 = mul nsw i64 %.13.i18, %.11.i16
+  %.15.i20 = getelementptr double, ptr %.201, i64 %.14.i19
+  %.196 = inttoptr i64 %.195 to ptr
+  %.228 = tail call ptr @aim(ptr nonnull %arg.s, i64 1, i64 1, ptr %.196, ptr %.15.i20)
+  %.231 = load i64, ptr %arg.s, align 8
+  %.234 = load i64, ptr %.11, align 8
+  %.235 = inttoptr i64 %.234 to ptr
+  %.238 = load i64, ptr %.19, align 8
+  %.239 = inttoptr i64 %.238 to ptr
+  %.244 = inttoptr i64 %.231 to ptr
+  tail call void %.244(ptr %.235, ptr %.239, ptr %.239)
+  %.7.i3 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i2, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
+  %.251 = load i64, ptr %.19, align 8
+  %.252 = inttoptr i64 %.251 to ptr
+  %.8.i22 = load i64, ptr %.7.i, align 8, !noalias !332
+  %.9.i23 = inttoptr i64 %.8.i22 to ptr
+  %.10.i24 = getelementptr i8, ptr %.9.i23, i64 88
+  %.11.i25 = load i64, ptr %.10.i24, align 8, !noalias !332
+  %.13.i27 = load i64, ptr %.12.i, align 8, !noalias !332
+  %.14.i28 = mul nsw i64 %.13.i27, %.11.i25
+  %.15.i29 = getelementptr double, ptr %.252, i64 %.14.i28
+  %.282 = load double, ptr %.27, align 8
+  %.284 = getelementptr i8, ptr %arg.s, i64 216
+  %.286 = load double, ptr %.284, align 8
+  %.7.i30 = fsub double %.286, %.282
+  %.10.i32 = load double, ptr %.8.i1, align 8, !noalias !335
+  %.14.i33 = fdiv double %.7.i30, %.10.i32
+  %.15.i34 = fadd double %.14.i33, -1.000000e-09
+  %.23.le.i35 = tail call double @llvm.ceil.f64(double %.15.i34)
+  %.12.i.i36 = fcmp ogt double %.23.le.i35, 1.000000e+00
+  %.13.i.i37 = select i1 %.12.i.i36, double %.23.le.i35, double 1.000000e+00
+  %.5.i.i38 = fptosi double %.13.i.i37 to i64
+  %.313 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.15.i29, i64 12, i64 %.5.i.i38)
+  br label %common.ret
+}
+
+
+define ptr @sample_all(ptr readonly %.1) local_unnamed_addr #0 {
+entry:
+  %.3 = alloca ptr, align 8
+  store ptr null, ptr %.3, align 8
+  %excinfo = alloca ptr, align 8
+  %.7 = call i32 @_ZN18biped_adrc_kernels10sample_allB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
+  %cond = icmp eq i32 %.7, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
+
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
+
+common.ret:
+  %.17 = load ptr, ptr %.3, align 8
+  ret ptr %.17
+}
+
+
+define i32 @_ZN18biped_adrc_kernels12side_by_sideB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.s, ptr readonly %arg.walks, i64 %arg.count, ptr writeonly %arg.codes) local_unnamed_addr #0 {
+B0.endif:
+  %.6.i12 = alloca ptr, align 8
+  %.3.i9 = alloca i64, align 8
+  %.5.i = alloca ptr, align 8
+  %.3.i = alloca i64, align 8
+  %.6.i5 = alloca ptr, align 8
+  %.6.i2 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %.44 = getelementptr i8, ptr %arg.s, i64 536
+  %.45 = load i64, ptr %.44, align 8
+  %.127340.not = icmp slt i64 %.45, 1
+  br i1 %.127340.not, label %B106.endif.preheader, label %B58.lr.ph
+
+B58.lr.ph:
+  %xtraiter = and i64 %.45, 7
+  %0 = icmp samesign ult i64 %.45, 8
+  br i1 %0, label %B58.epil.preheader, label %B58.lr.ph.new
+
+B58.lr.ph.new:
+  %unroll_iter = and i64 %.45, 9223372036854775800
+  %sunkaddr105 = getelementptr i8, ptr %arg.s, i64 592
+  %sunkaddr106 = getelementptr i8, ptr %arg.s, i64 584
+  br label %B58
+
+B106.endif.preheader.loopexit.unr-lcssa:
+  %lcmp.mod.not = icmp eq i64 %xtraiter, 0
+  br i1 %lcmp.mod.not, label %B106.endif.preheader, label %B58.epil.preheader
+
+B58.epil.preheader:
+  %.133339341.epil.init = phi i64 [ 0, %B58.lr.ph ], [ %unroll_iter, %B106.endif.preheader.loopexit.unr-lcssa ]
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 592
+  %sunkaddr104 = getelementptr i8, ptr %arg.s, i64 584
+  br label %B58.epil
+
+B58.epil:
+  %lsr.iv = phi i64 [ %lsr.iv.next, %B58.epil ], [ %xtraiter, %B58.epil.preheader ]
+  %.133339341.epil = phi i64 [ %.140.epil, %B58.epil ], [ %.133339341.epil.init, %B58.epil.preheader ]
+  %.140.epil = add nuw nsw i64 %.133339341.epil, 1
+  %.171.epil = load i64, ptr %sunkaddr, align 8
+  %.172.epil = inttoptr i64 %.171.epil to ptr
+  %1 = shl i64 %.133339341.epil, 3
+  %scevgep73 = getelementptr i8, ptr %.172.epil, i64 %1
+  store i64 -1, ptr %scevgep73, align 8
+  %.177.epil = load i64, ptr %sunkaddr104, align 8
+  %.178.epil = inttoptr i64 %.177.epil to ptr
+  %scevgep = getelementptr i8, ptr %.178.epil, i64 %1
+  store i64 0, ptr %scevgep, align 8
+  %lsr.iv.next = add nsw i64 %lsr.iv, -1
+  %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
+  br i1 %epil.iter.cmp.not, label %B106.endif.preheader, label %B58.epil, !llvm.loop !338
+
+B106.endif.preheader:
+  %sunkaddr107 = getelementptr i8, ptr %arg.s, i64 592
+  %sunkaddr116 = getelementptr i8, ptr %arg.s, i64 568
+  %sunkaddr117 = getelementptr i8, ptr %arg.s, i64 552
+  %sunkaddr109 = getelementptr i8, ptr %arg.s, i64 560
+  %sunkaddr112 = getelementptr i8, ptr %arg.s, i64 584
+  br label %B106.endif
+
+B58:
+  %.133339341 = phi i64 [ 0, %B58.lr.ph.new ], [ %.140.7, %B58 ]
+  %.171 = load i64, ptr %sunkaddr105, align 8
+  %.172 = inttoptr i64 %.171 to ptr
+  %2 = shl i64 %.133339341, 3
+  %scevgep103 = getelementptr i8, ptr %.172, i64 %2
+  store i64 -1, ptr %scevgep103, align 8
+  %.177 = load i64, ptr %sunkaddr106, align 8
+  %.178 = inttoptr i64 %.177 to ptr
+  %scevgep102 = getelementptr i8, ptr %.178, i64 %2
+  store i64 0, ptr %scevgep102, align 8
+  %.171.1 = load i64, ptr %sunkaddr105, align 8
+  %.172.1 = inttoptr i64 %.171.1 to ptr
+  %scevgep98 = getelementptr i8, ptr %.172.1, i64 8
+  %scevgep99 = getelementptr i8, ptr %scevgep98, i64 %2
+  store i64 -1, ptr %scevgep99, align 8
+  %.177.1 = load i64, ptr %sunkaddr106, align 8
+  %.178.1 = inttoptr i64 %.177.1 to ptr
+  %scevgep100 = getelementptr i8, ptr %.178.1, i64 8
+  %scevgep101 = getelementptr i8, ptr %scevgep100, i64 %2
+  store i64 0, ptr %scevgep101, align 8
+  %.171.2 = load i64, ptr %sunkaddr105, align 8
+  %.172.2 = inttoptr i64 %.171.2 to ptr
+  %scevgep94 = getelementptr i8, ptr %.172.2, i64 16
+  %scevgep95 = getelementptr i8, ptr %scevgep94, i64 %2
+  store i64 -1, ptr %scevgep95, align 8
+  %.177.2 = load i64, ptr %sunkaddr106, align 8
+  %.178.2 = inttoptr i64 %.177.2 to ptr
+  %scevgep96 = getelementptr i8, ptr %.178.2, i64 16
+  %scevgep97 = getelementptr i8, ptr %scevgep96, i64 %2
+  store i64 0, ptr %scevgep97, align 8
+  %.171.3 = load i64, ptr %sunkaddr105, align 8
+  %.172.3 = inttoptr i64 %.171.3 to ptr
+  %scevgep90 = getelementptr i8, ptr %.172.3, i64 24
+  %scevgep91 = getelementptr i8, ptr %scevgep90, i64 %2
+  store i64 -1, ptr %scevgep91, align 8
+  %.177.3 = load i64, ptr %sunkaddr106, align 8
+  %.178.3 = inttoptr i64 %.177.3 to ptr
+  %scevgep92 = getelementptr i8, ptr %.178.3, i64 24
+  %scevgep93 = getelementptr i8, ptr %scevgep92, i64 %2
+  store i64 0, ptr %scevgep93, align 8
+  %.171.4 = load i64, ptr %sunkaddr105, align 8
+  %.172.4 = inttoptr i64 %.171.4 to ptr
+  %scevgep86 = getelementptr i8, ptr %.172.4, i64 32
+  %scevgep87 = getelementptr i8, ptr %scevgep86, i64 %2
+  store i64 -1, ptr %scevgep87, align 8
+  %.177.4 = load i64, ptr %sunkaddr106, align 8
+  %.178.4 = inttoptr i64 %.177.4 to ptr
+  %scevgep88 = getelementptr i8, ptr %.178.4, i64 32
+  %scevgep89 = getelementptr i8, ptr %scevgep88, i64 %2
+  store i64 0, ptr %scevgep89, align 8
+  %.171.5 = load i64, ptr %sunkaddr105, align 8
+  %.172.5 = inttoptr i64 %.171.5 to ptr
+  %scevgep82 = getelementptr i8, ptr %.172.5, i64 40
+  %scevgep83 = getelementptr i8, ptr %scevgep82, i64 %2
+  store i64 -1, ptr %scevgep83, align 8
+  %.177.5 = load i64, ptr %sunkaddr106, align 8
+  %.178.5 = inttoptr i64 %.177.5 to ptr
+  %scevgep84 = getelementptr i8, ptr %.178.5, i64 40
+  %scevgep85 = getelementptr i8, ptr %scevgep84, i64 %2
+  store i64 0, ptr %scevgep85, align 8
+  %.171.6 = load i64, ptr %sunkaddr105, align 8
+  %.172.6 = inttoptr i64 %.171.6 to ptr
+  %scevgep78 = getelementptr i8, ptr %.172.6, i64 48
+  %scevgep79 = getelementptr i8, ptr %scevgep78, i64 %2
+  store i64 -1, ptr %scevgep79, align 8
+  %.177.6 = load i64, ptr %sunkaddr106, align 8
+  %.178.6 = inttoptr i64 %.177.6 to ptr
+  %scevgep80 = getelementptr i8, ptr %.178.6, i64 48
+  %scevgep81 = getelementptr i8, ptr %scevgep80, i64 %2
+  store i64 0, ptr %scevgep81, align 8
+  %.140.7 = add nuw nsw i64 %.133339341, 8
+  %.171.7 = load i64, ptr %sunkaddr105, align 8
+  %.172.7 = inttoptr i64 %.171.7 to ptr
+  %scevgep74 = getelementptr i8, ptr %.172.7, i64 56
+  %scevgep75 = getelementptr i8, ptr %scevgep74, i64 %2
+  store i64 -1, ptr %scevgep75, align 8
+  %.177.7 = load i64, ptr %sunkaddr106, align 8
+  %.178.7 = inttoptr i64 %.177.7 to ptr
+  %scevgep76 = getelementptr i8, ptr %.178.7, i64 56
+  %scevgep77 = getelementptr i8, ptr %scevgep76, i64 %2
+  store i64 0, ptr %scevgep77, align 8
+  %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.140.7
+  br i1 %niter.ncmp.7, label %B106.endif.preheader.loopexit.unr-lcssa, label %B58
+
+B150:
+  %busy.4.1352 = phi i64 [ %busy.6.2, %B1148 ], [ %busy.5.0, %B106.endif ]
+  %waiting.2.1351 = phi i64 [ %waiting.4.2, %B1148 ], [ %waiting.3.0, %B106.endif ]
+  %.306345347 = phi i64 [ %.313, %B1148 ], [ 0, %B106.endif ]
+  %.313 = add nuw nsw i64 %.306345347, 1
+  %.343 = load i64, ptr %sunkaddr107, align 8
+  %.344 = inttoptr i64 %.343 to ptr
+  %.346 = getelementptr i64, ptr %.344, i64 %.306345347
+  %.347 = load i64, ptr %.346, align 8
+  %.366 = icmp sgt i64 %.347, -1
+  br i1 %.366, label %B246.endif, label %B644
+
+B362:
+  %.420 = getelementptr double, ptr %.384, i64 %.306345347
+  %.421 = load double, ptr %.420, align 8
+  %.423 = getelementptr i8, ptr %4, i64 344
+  store double %.421, ptr %.423, align 8
+  %.427 = tail call i64 @is_plain(ptr %4)
+  %.428 = icmp eq i64 %.427, 1
+  %.448 = load i64, ptr %sunkaddr116, align 8
+  %3 = inttoptr i64 %.448 to ptr
+  br i1 %.428, label %B436, label %B484
+
+B436:
+  %.10.i1 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306345347, ptr nonnull %4, ptr %3) #0
+  br label %B1148
+
+B484:
+  %.10.i3 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i2, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306345347, ptr nonnull readonly %4, ptr readonly %3) #0
+  br label %B656.preheader
+
+B532:
+  %.485 = load i64, ptr %sunkaddr109, align 8
+  %.486 = inttoptr i64 %.485 to ptr
+  %.10.i6 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i5, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306345347, ptr readonly %4, ptr readonly %.486) #0
+  %.492 = getelementptr i8, ptr %4, i64 416
+  %.493 = load i64, ptr %.492, align 8
+  %.495 = getelementptr i8, ptr %4, i64 408
+  store i64 %.493, ptr %.495, align 8
+  store i64 0, ptr %.3.i, align 8
+  %.7.i = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr %4) #0
+  %.17.i = load i64, ptr %.3.i, align 8
+  br label %B656.preheader
+
+B644:
+  %.350 = load i64, ptr %arg.walks, align 8
+  %.351 = inttoptr i64 %.350 to ptr
+  %.566 = icmp slt i64 %waiting.2.1351, %arg.count
+  br i1 %.566, label %B656.preheader, label %B1088
+
+B656.preheader:
+  %r.4.3.ph = phi ptr [ %4, %B484 ], [ %4, %B532 ], [ %.351, %B644 ]
+  %code.5.3.ph = phi i64 [ -1, %B484 ], [ %.17.i, %B532 ], [ -1, %B644 ]
+  br label %B656
+
+B656:
+  %waiting.7.3 = phi i64 [ %waiting.6.5267, %B1044 ], [ %waiting.2.1351, %B656.preheader ]
+  %busy.3.3 = phi i64 [ %.741, %B1044 ], [ %busy.4.1352, %B656.preheader ]
+  %r.4.3 = phi ptr [ %r.3.5272, %B1044 ], [ %r.4.3.ph, %B656.preheader ]
+  %code.5.3 = phi i64 [ %code.7.5, %B1044 ], [ %code.5.3.ph, %B656.preheader ]
+  %i.3.3 = phi i64 [ -1, %B1044 ], [ %.347, %B656.preheader ]
+  %.611 = icmp slt i64 %i.3.3, 0
+  br i1 %.611, label %B788.thread, label %B788
+
+B788.thread:
+  %.616 = add nsw i64 %waiting.7.3, 1
+  %.618 = add nsw i64 %busy.3.3, 1
+  %.641 = getelementptr i64, ptr %arg.walks, i64 %waiting.7.3
+  %.642 = load i64, ptr %.641, align 8
+  %.643 = inttoptr i64 %.642 to ptr
+  %.9.i8 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr readonly %arg.s, i64 %.306345347, ptr readonly %.643) #0
+  br label %B810
+
+B788:
+  %.659 = icmp eq i64 %code.5.3, -1
+  br i1 %.659, label %B810, label %B1044
+
+B810:
+  %i.4.5275 = phi i64 [ %waiting.7.3, %B788.thread ], [ %i.3.3, %B788 ]
+  %r.3.5271 = phi ptr [ %.643, %B788.thread ], [ %r.4.3, %B788 ]
+  %busy.8.5270 = phi i64 [ %.618, %B788.thread ], [ %busy.3.3, %B788 ]
+  %waiting.6.5268 = phi i64 [ %.616, %B788.thread ], [ %waiting.7.3, %B788 ]
+  %.667 = tail call i64 @is_plain(ptr %r.3.5271)
+  %.668 = icmp eq i64 %.667, 0
+  br i1 %.668, label %B848, label %B1056
+
+B848:
+  store i64 0, ptr %.3.i9, align 8
+  %.7.i10 = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i9, ptr nonnull poison, ptr %r.3.5271) #0
+  %.17.i11 = load i64, ptr %.3.i9, align 8
+  %.682 = icmp eq i64 %.17.i11, -1
+  br i1 %.682, label %B900, label %B1044
+
+B900:
+  %.690 = tail call i64 @is_plain(ptr %r.3.5271)
+  %.691 = icmp eq i64 %.690, 0
+  br i1 %.691, label %B848, label %B1056
+
+B1044:
+  %i.4.5274 = phi i64 [ %i.3.3, %B788 ], [ %i.4.5275, %B848 ]
+  %r.3.5272 = phi ptr [ %r.4.3, %B788 ], [ %r.3.5271, %B848 ]
+  %busy.8.5269 = phi i64 [ %busy.3.3, %B788 ], [ %busy.8.5270, %B848 ]
+  %waiting.6.5267 = phi i64 [ %waiting.7.3, %B788 ], [ %waiting.6.5268, %B848 ]
+  %code.7.5 = phi i64 [ %code.5.3, %B788 ], [ %.17.i11, %B848 ]
+  %.736 = getelementptr i64, ptr %arg.codes, i64 %i.4.5274
+  store i64 %code.7.5, ptr %.736, align 8
+  %.741 = add nsw i64 %busy.8.5269, -1
+  %.762 = icmp slt i64 %waiting.6.5267, %arg.count
+  br i1 %.762, label %B656, label %B1088
+
+B1056:
+  %.724 = load i64, ptr %sunkaddr116, align 8
+  %.725 = inttoptr i64 %.724 to ptr
+  %.10.i13 = call i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i12, ptr nonnull poison, ptr readonly %arg.s, i64 %.306345347, ptr %r.3.5271, ptr %.725) #0
+  %.785 = icmp sgt i64 %i.4.5275, -1
+  br i1 %.785, label %B1070, label %B1088
+
+B1070:
+  %.793 = getelementptr i64, ptr %arg.walks, i64 %i.4.5275
+  %.794 = load i64, ptr %.793, align 8
+  br label %B1088
+
+B1088:
+  %i.5.4302 = phi i64 [ %i.4.5275, %B1070 ], [ %i.4.5275, %B1056 ], [ %.347, %B644 ], [ -1, %B1044 ]
+  %busy.7.4300 = phi i64 [ %busy.8.5270, %B1070 ], [ %busy.8.5270, %B1056 ], [ %busy.4.1352, %B644 ], [ %.741, %B1044 ]
+  %waiting.5.4298 = phi i64 [ %waiting.6.5268, %B1070 ], [ %waiting.6.5268, %B1056 ], [ %waiting.2.1351, %B644 ], [ %waiting.6.5267, %B1044 ]
+  %"$phi1088.2.2.3" = phi i64 [ %.794, %B1070 ], [ 0, %B1056 ], [ 0, %B644 ], [ 0, %B1044 ]
+  %.818 = load i64, ptr %sunkaddr107, align 8
+  %.819 = inttoptr i64 %.818 to ptr
+  %.822 = getelementptr i64, ptr %.819, i64 %.306345347
+  store i64 %i.5.4302, ptr %.822, align 8
+  %.828 = load i64, ptr %sunkaddr112, align 8
+  %.829 = inttoptr i64 %.828 to ptr
+  %.832 = getelementptr i64, ptr %.829, i64 %.306345347
+  store i64 %"$phi1088.2.2.3", ptr %.832, align 8
+  br label %B1148
+
+B1130:
+  %waiting.2.1.lcssa = phi i64 [ %waiting.3.0, %B106.endif ], [ %waiting.4.2, %B1148 ]
+  %busy.4.1.lcssa = phi i64 [ %busy.5.0, %B106.endif ], [ %busy.6.2, %B1148 ]
+  %.844 = icmp eq i64 %busy.4.1.lcssa, 0
+  br i1 %.844, label %common.ret, label %B1146
+
+common.ret:
+  store i64 %samples.2.0, ptr %retptr, align 8
+  ret i32 0
+
+B1146:
+  %.875 = load i64, ptr %sunkaddr116, align 8
+  %.879 = load i64, ptr %sunkaddr109, align 8
+  store i64 %.875, ptr %sunkaddr109, align 8
+  store i64 %.879, ptr %sunkaddr116, align 8
+  %.890 = tail call ptr @sample_all(ptr nonnull %arg.s)
+  %.892 = add nuw nsw i64 %samples.2.0, 1
+  br label %B106.endif
+
+B1148:
+  %waiting.4.2 = phi i64 [ %waiting.2.1351, %B436 ], [ %waiting.5.4298, %B1088 ]
+  %busy.6.2 = phi i64 [ %busy.4.1352, %B436 ], [ %busy.7.4300, %B1088 ]
+  %exitcond370.not = icmp eq i64 %.219, %.313
+  br i1 %exitcond370.not, label %B1130, label %B150
+
+B106.endif:
+  %waiting.3.0 = phi i64 [ %waiting.2.1.lcssa, %B1146 ], [ 0, %B106.endif.preheader ]
+  %busy.5.0 = phi i64 [ %busy.4.1.lcssa, %B1146 ], [ 0, %B106.endif.preheader ]
+  %samples.2.0 = phi i64 [ %.892, %B1146 ], [ 0, %B106.endif.preheader ]
+  %.219 = load i64, ptr %.44, align 8
+  %.300346.not = icmp slt i64 %.219, 1
+  br i1 %.300346.not, label %B1130, label %B150
+
+B246.endif:
+  %.374 = getelementptr i64, ptr %arg.walks, i64 %.347
+  %.375 = load i64, ptr %.374, align 8
+  %.383 = load i64, ptr %sunkaddr116, align 8
+  %.384 = inttoptr i64 %.383 to ptr
+  %.8.i = load i64, ptr %sunkaddr117, align 8, !noalias !339
+  %.9.i = inttoptr i64 %.8.i to ptr
+  %.10.i = getelementptr i8, ptr %.9.i, i64 64
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !339
+  %.13.i = load i64, ptr %.44, align 8, !noalias !339
+  %.14.i = mul nsw i64 %.13.i, %.11.i
+  %.15.i = getelementptr double, ptr %.384, i64 %.14.i
+  %.411 = getelementptr double, ptr %.15.i, i64 %.306345347
+  %.412 = load double, ptr %.411, align 8
+  %.413 = fcmp oeq double %.412, 1.000000e+00
+  %4 = inttoptr i64 %.375 to ptr
+  br i1 %.413, label %B362, label %B532
+}
+
+
+define i64 @side_by_side(ptr %.1, ptr readonly %.2, i64 %.3, ptr writeonly %.4) local_unnamed_addr #0 {
+entry:
+  %.6 = alloca i64, align 8
+  store i64 0, ptr %.6, align 8
+  %.10 = call i32 @_ZN18biped_adrc_kernels12side_by_sideB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
+  %.20 = load i64, ptr %.6, align 8
+  ret i64 %.20
+}
+
+
+define i32 @_ZN18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, ptr readonly %arg.walks, i64 %arg.first, ptr %arg.impacts) local_unnamed_addr #0 {
+B0.endif:
+  %.6.i8 = alloca ptr, align 8
+  %.6.i = alloca ptr, align 8
+  %.7.i2 = alloca ptr, align 8
+  %.5.i = alloca ptr, align 8
+  %.35 = getelementptr i8, ptr %arg.s, i64 536
+  %.36 = load i64, ptr %.35, align 8
+  %.119218.not = icmp slt i64 %.36, 1
+  br i1 %.119218.not, label %common.ret, label %B58.lr.ph
+
+B58.lr.ph:
+  %0 = shl i64 %arg.first, 3
+  %scevgep152 = getelementptr i8, ptr %arg.walks, i64 %0
+  %scevgep154 = getelementptr i8, ptr %arg.impacts, i64 %0
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 584
+  %sunkaddr157 = getelementptr i8, ptr %arg.s, i64 592
+  %sunkaddr159 = getelementptr i8, ptr %arg.s, i64 328
+  %sunkaddr160 = getelementptr i8, ptr %arg.s, i64 336
+  %sunkaddr176 = getelementptr i8, ptr %arg.s, i64 560
+  br label %B58
+
+B58:
+  %pushed.2.0222 = phi i64 [ 0, %B58.lr.ph ], [ %pushed.3.1, %B574 ]
+  %some.2.0221 = phi i64 [ 0, %B58.lr.ph ], [ %some.3.1, %B574 ]
+  %.125217219 = phi i64 [ 0, %B58.lr.ph ], [ %.132, %B574 ]
+  %.132 = add nuw nsw i64 %.125217219, 1
+  %.176 = load i64, ptr %sunkaddr, align 8
+  %.177 = inttoptr i64 %.176 to ptr
+  %1 = shl i64 %.125217219, 3
+  %scevgep151 = getelementptr i8, ptr %.177, i64 %1
+  store i64 0, ptr %scevgep151, align 8
+  %.183 = load i64, ptr %sunkaddr157, align 8
+  %.184 = inttoptr i64 %.183 to ptr
+  %scevgep150 = getelementptr i8, ptr %.184, i64 %1
+  %.187 = load i64, ptr %scevgep150, align 8
+  %.188.not = icmp eq i64 %.187, 0
+  br i1 %.188.not, label %B574, label %B124
+
+B124:
+  %scevgep155 = getelementptr i8, ptr %scevgep154, i64 %1
+  %.199 = load i64, ptr %scevgep155, align 8
+  %.200 = icmp eq i64 %.199, 0
+  br i1 %.200, label %B148, label %B574
+
+B148:
+  %scevgep153 = getelementptr i8, ptr %scevgep152, i64 %1
+  %.209 = load i64, ptr %scevgep153, align 8
+  %.221 = icmp eq i64 %.187, 1
+  %2 = inttoptr i64 %.209 to ptr
+  br i1 %.221, label %B224, label %B278
+
+B224:
+  %.9.i1 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr readonly %2) #0
+  %.229 = load i64, ptr %sunkaddr157, align 8
+  %.230 = inttoptr i64 %.229 to ptr
+  %scevgep149 = getelementptr i8, ptr %.230, i64 %1
+  store i64 2, ptr %scevgep149, align 8
+  br label %B278
+
+B278:
+  %.242 = getelementptr i8, ptr %2, i64 328
+  %.243 = load i64, ptr %.242, align 8
+  %.244 = inttoptr i64 %.243 to ptr
+  %.247 = load i64, ptr %sunkaddr159, align 8
+  %.248 = inttoptr i64 %.247 to ptr
+  %.250 = getelementptr i8, ptr %2, i64 88
+  %.251 = load i64, ptr %.250, align 8
+  %.11.i3 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i2, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr readonly %.244, ptr %.248, i64 %.251) #0
+  %.256 = getelementptr i8, ptr %2, i64 336
+  %.257 = load i64, ptr %.256, align 8
+  %.258 = inttoptr i64 %.257 to ptr
+  %.261 = load i64, ptr %sunkaddr160, align 8
+  %.262 = inttoptr i64 %.261 to ptr
+  %invariant.gep.i = getelementptr double, ptr %.262, i64 %.125217219
+  br label %B36.epil.i
+
+B36.epil.i:
+  %lsr.iv.i = phi i64 [ %lsr.iv.next.i, %B36.epil.i ], [ 2, %B278 ]
+  %.1044042.epil.i = phi i64 [ %.111.epil.i, %B36.epil.i ], [ 0, %B278 ]
+  %.111.epil.i = add nuw nsw i64 %.1044042.epil.i, 1
+  %3 = shl i64 %.1044042.epil.i, 3
+  %scevgep.i = getelementptr i8, ptr %.258, i64 %3
+  %.138.epil.i = load double, ptr %scevgep.i, align 8, !noalias !342
+  %.141.epil.i = load i64, ptr %.35, align 8, !noalias !342
+  %.142.epil.i = mul nsw i64 %.141.epil.i, %.1044042.epil.i
+  %gep.epil.i = getelementptr double, ptr %invariant.gep.i, i64 %.142.epil.i
+  store double %.138.epil.i, ptr %gep.epil.i, align 8, !noalias !342
+  %lsr.iv.next.i = add nsw i64 %lsr.iv.i, -1
+  %epil.iter.cmp.not.i = icmp eq i64 %lsr.iv.next.i, 0
+  br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit, label %B36.epil.i, !llvm.loop !255
+
+_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit:
+  %.267 = tail call i64 @is_plain(ptr nonnull %2)
+  %.268 = icmp eq i64 %.267, 1
+  br i1 %.268, label %B442.endif, label %B574
+
+B574:
+  %some.3.1 = phi i64 [ %.285, %B442.endif ], [ %some.2.0221, %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit ], [ %some.2.0221, %B124 ], [ %some.2.0221, %B58 ]
+  %pushed.3.1 = phi i64 [ %.13.i, %B442.endif ], [ %pushed.2.0222, %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit ], [ %pushed.2.0222, %B124 ], [ %pushed.2.0222, %B58 ]
+  %exitcond.not = icmp eq i64 %.36, %.132
+  br i1 %exitcond.not, label %B578, label %B58
+
+B578:
+  %4 = icmp sgt i64 %some.3.1, 1
+  br i1 %4, label %B622, label %common.ret
+
+B622:
+  %5 = icmp sgt i64 %pushed.3.1, 0
+  %.371 = getelementptr i8, ptr %arg.s, i64 568
+  %.372 = load i64, ptr %.371, align 8
+  %.368 = load i64, ptr %sunkaddr176, align 8
+  br i1 %5, label %B636, label %B652.endif.endif
+
+B636:
+  %sunkaddr162 = getelementptr i8, ptr %arg.s, i64 544
+  %.466 = load i64, ptr %sunkaddr162, align 8
+  br label %B652.endif.endif
+
+B622.1.loopexit.unr-lcssa:
+  %lcmp.mod.not = icmp eq i64 %xtraiter, 0
+  br i1 %lcmp.mod.not, label %B622.1, label %B800.endif.endif.epil.preheader
+
+B800.endif.endif.epil.preheader:
+  %.600228231.epil.init = phi i64 [ 0, %B800.endif.endif.preheader ], [ %unroll_iter, %B622.1.loopexit.unr-lcssa ]
+  %6 = shl i64 %.600228231.epil.init, 3
+  %scevgep119 = getelementptr i8, ptr %36, i64 %6
+  br label %B800.endif.endif.epil
+
+B800.endif.endif.epil:
+  %lsr.iv124 = phi i64 [ %lsr.iv.next125, %B800.endif.endif.epil ], [ %xtraiter, %B800.endif.endif.epil.preheader ]
+  %lsr.iv120 = phi ptr [ %scevgep121, %B800.endif.endif.epil ], [ %scevgep119, %B800.endif.endif.epil.preheader ]
+  %.8.i14.epil = load i64, ptr %.7.i, align 8, !noalias !345
+  %.9.i15.epil = inttoptr i64 %.8.i14.epil to ptr
+  %.10.i16.epil = getelementptr i8, ptr %.9.i15.epil, i64 8
+  %.11.i17.epil = load i64, ptr %.10.i16.epil, align 8, !noalias !345
+  %.13.i19.epil = load i64, ptr %.35, align 8, !noalias !345
+  %7 = shl i64 %.11.i17.epil, 3
+  %8 = mul i64 %7, %.13.i19.epil
+  %scevgep123 = getelementptr i8, ptr %lsr.iv120, i64 %8
+  store double 0.000000e+00, ptr %scevgep123, align 8
+  %.8.i59.epil = load i64, ptr %.7.i, align 8, !noalias !348
+  %.9.i60.epil = inttoptr i64 %.8.i59.epil to ptr
+  %.10.i61.epil = getelementptr i8, ptr %.9.i60.epil, i64 112
+  %.11.i62.epil = load i64, ptr %.10.i61.epil, align 8, !noalias !348
+  %.13.i64.epil = load i64, ptr %.35, align 8, !noalias !348
+  %9 = shl i64 %.11.i62.epil, 3
+  %10 = mul i64 %9, %.13.i64.epil
+  %scevgep122 = getelementptr i8, ptr %lsr.iv120, i64 %10
+  store double 0.000000e+00, ptr %scevgep122, align 8
+  %scevgep121 = getelementptr i8, ptr %lsr.iv120, i64 8
+  %lsr.iv.next125 = add nsw i64 %lsr.iv124, -1
+  %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next125, 0
+  br i1 %epil.iter.cmp.not, label %B622.1, label %B800.endif.endif.epil, !llvm.loop !351
+
+B622.1:
+  br i1 %5, label %B636.1, label %B652.endif.endif.1
+
+B636.1:
+  %sunkaddr165 = getelementptr i8, ptr %arg.s, i64 544
+  %.466.1 = load i64, ptr %sunkaddr165, align 8
+  br label %B652.endif.endif.1
+
+B652.endif.endif.1:
+  %"$phi652.1.2.1.1" = phi i64 [ %.466.1, %B636.1 ], [ 0, %B622.1 ]
+  %11 = inttoptr i64 %.372 to ptr
+  %.8.i23 = load i64, ptr %.7.i, align 8, !noalias !352
+  %.9.i24 = inttoptr i64 %.8.i23 to ptr
+  %.10.i25 = getelementptr i8, ptr %.9.i24, i64 120
+  %.11.i26 = load i64, ptr %.10.i25, align 8, !noalias !352
+  %.13.i28 = load i64, ptr %.35, align 8, !noalias !352
+  %.14.i29 = mul nsw i64 %.13.i28, %.11.i26
+  %.15.i30 = getelementptr double, ptr %11, i64 %.14.i29
+  store i64 %"$phi652.1.2.1.1", ptr %.15.i30, align 8
+  %.509.1 = load i64, ptr %sunkaddr181, align 8
+  %.510.1 = add nsw i64 %.509.1, 2
+  %.513.1 = load i64, ptr %.35, align 8
+  %.514.1 = mul nsw i64 %.510.1, %.513.1
+  %.594230.not.1 = icmp slt i64 %.514.1, 1
+  br i1 %.594230.not.1, label %B904.1, label %B800.endif.endif.1.preheader
+
+B800.endif.endif.1.preheader:
+  %xtraiter82 = and i64 %.514.1, 3
+  %12 = icmp samesign ult i64 %.514.1, 4
+  br i1 %12, label %B800.endif.endif.1.epil.preheader, label %B800.endif.endif.1.preheader.new
+
+B800.endif.endif.1.preheader.new:
+  %unroll_iter86 = and i64 %.514.1, 9223372036854775804
+  br label %B800.endif.endif.1
+
+B800.endif.endif.1:
+  %.600228231.1 = phi i64 [ 0, %B800.endif.endif.1.preheader.new ], [ %.607.1.3, %B800.endif.endif.1 ]
+  %.8.i32 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.9.i33 = inttoptr i64 %.8.i32 to ptr
+  %.10.i34 = getelementptr i8, ptr %.9.i33, i64 8
+  %.11.i35 = load i64, ptr %.10.i34, align 8, !noalias !355
+  %.13.i37 = load i64, ptr %.35, align 8, !noalias !355
+  %13 = shl i64 %.11.i35, 3
+  %14 = mul i64 %13, %.13.i37
+  %scevgep117 = getelementptr i8, ptr %11, i64 %14
+  %15 = shl i64 %.600228231.1, 3
+  %scevgep118 = getelementptr i8, ptr %scevgep117, i64 %15
+  store double 0.000000e+00, ptr %scevgep118, align 8
+  %.8.i41 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.9.i42 = inttoptr i64 %.8.i41 to ptr
+  %.10.i43 = getelementptr i8, ptr %.9.i42, i64 112
+  %.11.i44 = load i64, ptr %.10.i43, align 8, !noalias !358
+  %.13.i46 = load i64, ptr %.35, align 8, !noalias !358
+  %16 = shl i64 %.11.i44, 3
+  %17 = mul i64 %16, %.13.i46
+  %scevgep115 = getelementptr i8, ptr %11, i64 %17
+  %scevgep116 = getelementptr i8, ptr %scevgep115, i64 %15
+  store double 0.000000e+00, ptr %scevgep116, align 8
+  %.8.i32.1 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.9.i33.1 = inttoptr i64 %.8.i32.1 to ptr
+  %.10.i34.1 = getelementptr i8, ptr %.9.i33.1, i64 8
+  %.11.i35.1 = load i64, ptr %.10.i34.1, align 8, !noalias !355
+  %.13.i37.1 = load i64, ptr %.35, align 8, !noalias !355
+  %18 = shl i64 %.11.i35.1, 3
+  %19 = mul i64 %18, %.13.i37.1
+  %scevgep109 = getelementptr i8, ptr %11, i64 %19
+  %scevgep110 = getelementptr i8, ptr %scevgep109, i64 %15
+  %scevgep111 = getelementptr i8, ptr %scevgep110, i64 8
+  store double 0.000000e+00, ptr %scevgep111, align 8
+  %.8.i41.1 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.9.i42.1 = inttoptr i64 %.8.i41.1 to ptr
+  %.10.i43.1 = getelementptr i8, ptr %.9.i42.1, i64 112
+  %.11.i44.1 = load i64, ptr %.10.i43.1, align 8, !noalias !358
+  %.13.i46.1 = load i64, ptr %.35, align 8, !noalias !358
+  %20 = shl i64 %.11.i44.1, 3
+  %21 = mul i64 %20, %.13.i46.1
+  %scevgep112 = getelementptr i8, ptr %11, i64 %21
+  %scevgep113 = getelementptr i8, ptr %scevgep112, i64 %15
+  %scevgep114 = getelementptr i8, ptr %scevgep113, i64 8
+  store double 0.000000e+00, ptr %scevgep114, align 8
+  %.8.i32.2 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.9.i33.2 = inttoptr i64 %.8.i32.2 to ptr
+  %.10.i34.2 = getelementptr i8, ptr %.9.i33.2, i64 8
+  %.11.i35.2 = load i64, ptr %.10.i34.2, align 8, !noalias !355
+  %.13.i37.2 = load i64, ptr %.35, align 8, !noalias !355
+  %22 = shl i64 %.11.i35.2, 3
+  %23 = mul i64 %22, %.13.i37.2
+  %scevgep103 = getelementptr i8, ptr %11, i64 %23
+  %scevgep104 = getelementptr i8, ptr %scevgep103, i64 %15
+  %scevgep105 = getelementptr i8, ptr %scevgep104, i64 16
+  store double 0.000000e+00, ptr %scevgep105, align 8
+  %.8.i41.2 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.9.i42.2 = inttoptr i64 %.8.i41.2 to ptr
+  %.10.i43.2 = getelementptr i8, ptr %.9.i42.2, i64 112
+  %.11.i44.2 = load i64, ptr %.10.i43.2, align 8, !noalias !358
+  %.13.i46.2 = load i64, ptr %.35, align 8, !noalias !358
+  %24 = shl i64 %.11.i44.2, 3
+  %25 = mul i64 %24, %.13.i46.2
+  %scevgep106 = getelementptr i8, ptr %11, i64 %25
+  %scevgep107 = getelementptr i8, ptr %scevgep106, i64 %15
+  %scevgep108 = getelementptr i8, ptr %scevgep107, i64 16
+  store double 0.000000e+00, ptr %scevgep108, align 8
+  %.607.1.3 = add nuw i64 %.600228231.1, 4
+  %.8.i32.3 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.9.i33.3 = inttoptr i64 %.8.i32.3 to ptr
+  %.10.i34.3 = getelementptr i8, ptr %.9.i33.3, i64 8
+  %.11.i35.3 = load i64, ptr %.10.i34.3, align 8, !noalias !355
+  %.13.i37.3 = load i64, ptr %.35, align 8, !noalias !355
+  %26 = shl i64 %.11.i35.3, 3
+  %27 = mul i64 %26, %.13.i37.3
+  %scevgep97 = getelementptr i8, ptr %11, i64 %27
+  %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %15
+  %scevgep99 = getelementptr i8, ptr %scevgep98, i64 24
+  store double 0.000000e+00, ptr %scevgep99, align 8
+  %.8.i41.3 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.9.i42.3 = inttoptr i64 %.8.i41.3 to ptr
+  %.10.i43.3 = getelementptr i8, ptr %.9.i42.3, i64 112
+  %.11.i44.3 = load i64, ptr %.10.i43.3, align 8, !noalias !358
+  %.13.i46.3 = load i64, ptr %.35, align 8, !noalias !358
+  %28 = shl i64 %.11.i44.3, 3
+  %29 = mul i64 %28, %.13.i46.3
+  %scevgep100 = getelementptr i8, ptr %11, i64 %29
+  %scevgep101 = getelementptr i8, ptr %scevgep100, i64 %15
+  %scevgep102 = getelementptr i8, ptr %scevgep101, i64 24
+  store double 0.000000e+00, ptr %scevgep102, align 8
+  %niter87.ncmp.3 = icmp eq i64 %unroll_iter86, %.607.1.3
+  br i1 %niter87.ncmp.3, label %B904.1.loopexit.unr-lcssa, label %B800.endif.endif.1
+
+B904.1.loopexit.unr-lcssa:
+  %lcmp.mod84.not = icmp eq i64 %xtraiter82, 0
+  br i1 %lcmp.mod84.not, label %B904.1, label %B800.endif.endif.1.epil.preheader
+
+B800.endif.endif.1.epil.preheader:
+  %.600228231.1.epil.init = phi i64 [ 0, %B800.endif.endif.1.preheader ], [ %unroll_iter86, %B904.1.loopexit.unr-lcssa ]
+  %30 = shl i64 %.600228231.1.epil.init, 3
+  %scevgep92 = getelementptr i8, ptr %11, i64 %30
+  br label %B800.endif.endif.1.epil
+
+B800.endif.endif.1.epil:
+  %lsr.iv96 = phi i64 [ %lsr.iv.next, %B800.endif.endif.1.epil ], [ %xtraiter82, %B800.endif.endif.1.epil.preheader ]
+  %lsr.iv = phi ptr [ %scevgep93, %B800.endif.endif.1.epil ], [ %scevgep92, %B800.endif.endif.1.epil.preheader ]
+  %.8.i32.epil = load i64, ptr %.7.i, align 8, !noalias !355
+  %.9.i33.epil = inttoptr i64 %.8.i32.epil to ptr
+  %.10.i34.epil = getelementptr i8, ptr %.9.i33.epil, i64 8
+  %.11.i35.epil = load i64, ptr %.10.i34.epil, align 8, !noalias !355
+  %.13.i37.epil = load i64, ptr %.35, align 8, !noalias !355
+  %31 = shl i64 %.11.i35.epil, 3
+  %32 = mul i64 %31, %.13.i37.epil
+  %scevgep95 = getelementptr i8, ptr %lsr.iv, i64 %32
+  store double 0.000000e+00, ptr %scevgep95, align 8
+  %.8.i41.epil = load i64, ptr %.7.i, align 8, !noalias !358
+  %.9.i42.epil = inttoptr i64 %.8.i41.epil to ptr
+  %.10.i43.epil = getelementptr i8, ptr %.9.i42.epil, i64 112
+  %.11.i44.epil = load i64, ptr %.10.i43.epil, align 8, !noalias !358
+  %.13.i46.epil = load i64, ptr %.35, align 8, !noalias !358
+  %33 = shl i64 %.11.i44.epil, 3
+  %34 = mul i64 %33, %.13.i46.epil
+  %scevgep94 = getelementptr i8, ptr %lsr.iv, i64 %34
+  store double 0.000000e+00, ptr %scevgep94, align 8
+  %scevgep93 = getelementptr i8, ptr %lsr.iv, i64 8
+  %lsr.iv.next = add nsw i64 %lsr.iv96, -1
+  %epil.iter83.cmp.not = icmp eq i64 %lsr.iv.next, 0
+  br i1 %epil.iter83.cmp.not, label %B904.1, label %B800.endif.endif.1.epil, !llvm.loop !361
+
+B904.1:
+  %.707 = tail call ptr @sample_all(ptr nonnull %arg.s)
+  %.710 = load i64, ptr %.35, align 8
+  %.790256.not = icmp slt i64 %.710, 1
+  br i1 %.790256.not, label %common.ret, label %B978.lr.ph
+
+B978:
+  %.796254257 = phi i64 [ 0, %B978.lr.ph ], [ %.803, %B1362 ]
+  %.803 = add nuw nsw i64 %.796254257, 1
+  %.833 = load i64, ptr %sunkaddr, align 8
+  %.834 = inttoptr i64 %.833 to ptr
+  %35 = shl i64 %.796254257, 3
+  %scevgep91 = getelementptr i8, ptr %.834, i64 %35
+  %.837 = load i64, ptr %scevgep91, align 8
+  %.838.not = icmp eq i64 %.837, 0
+  br i1 %.838.not, label %B1362, label %B1166.endif
+
+B1252:
+  %.10.i7 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.796254257, ptr nonnull readonly %.847, ptr nonnull readonly %.909) #0
+  %.950 = load i64, ptr %.371, align 8
+  %.951 = inttoptr i64 %.950 to ptr
+  %scevgep88 = getelementptr i8, ptr %.951, i64 %35
+  %.954 = load double, ptr %scevgep88, align 8
+  %.956 = getelementptr i8, ptr %.847, i64 344
+  store double %.954, ptr %.956, align 8
+  %scevgep = getelementptr i8, ptr %55, i64 %35
+  store i64 -2, ptr %scevgep, align 8
+  br label %B1362
+
+B1362:
+  %exitcond289.not = icmp eq i64 %.710, %.803
+  br i1 %exitcond289.not, label %common.ret, label %B978
+
+common.ret:
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+
+B442.endif:
+  %.272 = load i64, ptr %sunkaddr176, align 8
+  %.273 = inttoptr i64 %.272 to ptr
+  %.10.i9 = call i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr nonnull %2, ptr %.273) #0
+  %.281 = load i64, ptr %scevgep153, align 8
+  %.289 = getelementptr i8, ptr %2, i64 200
+  %.290 = load i64, ptr %.289, align 8
+  %.13.i = tail call i64 @llvm.smax.i64(i64 %.290, i64 %pushed.2.0222)
+  %.285 = add nsw i64 %some.2.0221, 1
+  %.326 = load i64, ptr %sunkaddr, align 8
+  %.327 = inttoptr i64 %.326 to ptr
+  %scevgep148 = getelementptr i8, ptr %.327, i64 %1
+  store i64 %.281, ptr %scevgep148, align 8
+  br label %B574
+
+B652.endif.endif:
+  %"$phi652.1.2.1" = phi i64 [ %.466, %B636 ], [ 0, %B622 ]
+  %36 = inttoptr i64 %.368 to ptr
+  %.7.i = getelementptr i8, ptr %arg.s, i64 552
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !362
+  %.9.i = inttoptr i64 %.8.i to ptr
+  %.10.i = getelementptr i8, ptr %.9.i, i64 120
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !362
+  %.13.i12 = load i64, ptr %.35, align 8, !noalias !362
+  %.14.i = mul nsw i64 %.13.i12, %.11.i
+  %.15.i = getelementptr double, ptr %36, i64 %.14.i
+  store i64 %"$phi652.1.2.1", ptr %.15.i, align 8
+  %sunkaddr181 = getelementptr i8, ptr %arg.s, i64 72
+  %.509 = load i64, ptr %sunkaddr181, align 8
+  %.510 = add nsw i64 %.509, 2
+  %.513 = load i64, ptr %.35, align 8
+  %.514 = mul nsw i64 %.510, %.513
+  %.594230.not = icmp slt i64 %.514, 1
+  br i1 %.594230.not, label %B622.1, label %B800.endif.endif.preheader
+
+B800.endif.endif.preheader:
+  %xtraiter = and i64 %.514, 3
+  %37 = icmp samesign ult i64 %.514, 4
+  br i1 %37, label %B800.endif.endif.epil.preheader, label %B800.endif.endif.preheader.new
+
+B800.endif.endif.preheader.new:
+  %unroll_iter = and i64 %.514, 9223372036854775804
+  br label %B800.endif.endif
+
+B800.endif.endif:
+  %.600228231 = phi i64 [ 0, %B800.endif.endif.preheader.new ], [ %.607.3, %B800.endif.endif ]
+  %.8.i14 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.9.i15 = inttoptr i64 %.8.i14 to ptr
+  %.10.i16 = getelementptr i8, ptr %.9.i15, i64 8
+  %.11.i17 = load i64, ptr %.10.i16, align 8, !noalias !345
+  %.13.i19 = load i64, ptr %.35, align 8, !noalias !345
+  %38 = shl i64 %.11.i17, 3
+  %39 = mul i64 %38, %.13.i19
+  %scevgep146 = getelementptr i8, ptr %36, i64 %39
+  %40 = shl i64 %.600228231, 3
+  %scevgep147 = getelementptr i8, ptr %scevgep146, i64 %40
+  store double 0.000000e+00, ptr %scevgep147, align 8
+  %.8.i59 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.9.i60 = inttoptr i64 %.8.i59 to ptr
+  %.10.i61 = getelementptr i8, ptr %.9.i60, i64 112
+  %.11.i62 = load i64, ptr %.10.i61, align 8, !noalias !348
+  %.13.i64 = load i64, ptr %.35, align 8, !noalias !348
+  %41 = shl i64 %.11.i62, 3
+  %42 = mul i64 %41, %.13.i64
+  %scevgep144 = getelementptr i8, ptr %36, i64 %42
+  %scevgep145 = getelementptr i8, ptr %scevgep144, i64 %40
+  store double 0.000000e+00, ptr %scevgep145, align 8
+  %.8.i14.1 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.9.i15.1 = inttoptr i64 %.8.i14.1 to ptr
+  %.10.i16.1 = getelementptr i8, ptr %.9.i15.1, i64 8
+  %.11.i17.1 = load i64, ptr %.10.i16.1, align 8, !noalias !345
+  %.13.i19.1 = load i64, ptr %.35, align 8, !noalias !345
+  %43 = shl i64 %.11.i17.1, 3
+  %44 = mul i64 %43, %.13.i19.1
+  %scevgep138 = getelementptr i8, ptr %36, i64 %44
+  %scevgep139 = getelementptr i8, ptr %scevgep138, i64 %40
+  %scevgep140 = getelementptr i8, ptr %scevgep139, i64 8
+  store double 0.000000e+00, ptr %scevgep140, align 8
+  %.8.i59.1 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.9.i60.1 = inttoptr i64 %.8.i59.1 to ptr
+  %.10.i61.1 = getelementptr i8, ptr %.9.i60.1, i64 112
+  %.11.i62.1 = load i64, ptr %.10.i61.1, align 8, !noalias !348
+  %.13.i64.1 = load i64, ptr %.35, align 8, !noalias !348
+  %45 = shl i64 %.11.i62.1, 3
+  %46 = mul i64 %45, %.13.i64.1
+  %scevgep141 = getelementptr i8, ptr %36, i64 %46
+  %scevgep142 = getelementptr i8, ptr %scevgep141, i64 %40
+  %scevgep143 = getelementptr i8, ptr %scevgep142, i64 8
+  store double 0.000000e+00, ptr %scevgep143, align 8
+  %.8.i14.2 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.9.i15.2 = inttoptr i64 %.8.i14.2 to ptr
+  %.10.i16.2 = getelementptr i8, ptr %.9.i15.2, i64 8
+  %.11.i17.2 = load i64, ptr %.10.i16.2, align 8, !noalias !345
+  %.13.i19.2 = load i64, ptr %.35, align 8, !noalias !345
+  %47 = shl i64 %.11.i17.2, 3
+  %48 = mul i64 %47, %.13.i19.2
+  %scevgep132 = getelementptr i8, ptr %36, i64 %48
+  %scevgep133 = getelementptr i8, ptr %scevgep132, i64 %40
+  %scevgep134 = getelementptr i8, ptr %scevgep133, i64 16
+  store double 0.000000e+00, ptr %scevgep134, align 8
+  %.8.i59.2 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.9.i60.2 = inttoptr i64 %.8.i59.2 to ptr
+  %.10.i61.2 = getelementptr i8, ptr %.9.i60.2, i64 112
+  %.11.i62.2 = load i64, ptr %.10.i61.2, align 8, !noalias !348
+  %.13.i64.2 = load i64, ptr %.35, align 8, !noalias !348
+  %49 = shl i64 %.11.i62.2, 3
+  %50 = mul i64 %49, %.13.i64.2
+  %scevgep135 = getelementptr i8, ptr %36, i64 %50
+  %scevgep136 = getelementptr i8, ptr %scevgep135, i64 %40
+  %scevgep137 = getelementptr i8, ptr %scevgep136, i64 16
+  store double 0.000000e+00, ptr %scevgep137, align 8
+  %.607.3 = add nuw i64 %.600228231, 4
+  %.8.i14.3 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.9.i15.3 = inttoptr i64 %.8.i14.3 to ptr
+  %.10.i16.3 = getelementptr i8, ptr %.9.i15.3, i64 8
+  %.11.i17.3 = load i64, ptr %.10.i16.3, align 8, !noalias !345
+  %.13.i19.3 = load i64, ptr %.35, align 8, !noalias !345
+  %51 = shl i64 %.11.i17.3, 3
+  %52 = mul i64 %51, %.13.i19.3
+  %scevgep126 = getelementptr i8, ptr %36, i64 %52
+  %scevgep127 = getelementptr i8, ptr %scevgep126, i64 %40
+  %scevgep128 = getelementptr i8, ptr %scevgep127, i64 24
+  store double 0.000000e+00, ptr %scevgep128, align 8
+  %.8.i59.3 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.9.i60.3 = inttoptr i64 %.8.i59.3 to ptr
+  %.10.i61.3 = getelementptr i8, ptr %.9.i60.3, i64 112
+  %.11.i62.3 = load i64, ptr %.10.i61.3, align 8, !noalias !348
+  %.13.i64.3 = load i64, ptr %.35, align 8, !noalias !348
+  %53 = shl i64 %.11.i62.3, 3
+  %54 = mul i64 %53, %.13.i64.3
+  %scevgep129 = getelementptr i8, ptr %36, i64 %54
+  %scevgep130 = getelementptr i8, ptr %scevgep129, i64 %40
+  %scevgep131 = getelementptr i8, ptr %scevgep130, i64 24
+  store double 0.000000e+00, ptr %scevgep131, align 8
+  %niter.ncmp.3 = icmp eq i64 %unroll_iter, %.607.3
+  br i1 %niter.ncmp.3, label %B622.1.loopexit.unr-lcssa, label %B800.endif.endif
+
+B978.lr.ph:
+  %55 = getelementptr i64, ptr %arg.impacts, i64 %arg.first
+  br label %B978
+
+B1166.endif:
+  %.847 = inttoptr i64 %.837 to ptr
+  %.854 = load i64, ptr %.371, align 8
+  %.855 = inttoptr i64 %.854 to ptr
+  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !365
+  %.9.i51 = inttoptr i64 %.8.i50 to ptr
+  %.10.i52 = getelementptr i8, ptr %.9.i51, i64 64
+  %.11.i53 = load i64, ptr %.10.i52, align 8, !noalias !365
+  %.13.i55 = load i64, ptr %.35, align 8, !noalias !365
+  %.14.i56 = mul nsw i64 %.13.i55, %.11.i53
+  %.15.i57 = getelementptr double, ptr %.855, i64 %.14.i56
+  %scevgep90 = getelementptr i8, ptr %.15.i57, i64 %35
+  %.883 = load double, ptr %scevgep90, align 8
+  %.884 = fcmp oeq double %.883, 1.000000e+00
+  %"$phi1166.1.2.2.in.v" = select i1 %.884, i64 408, i64 416
+  %"$phi1166.1.2.2.in" = getelementptr i8, ptr %.847, i64 %"$phi1166.1.2.2.in.v"
+  %"$phi1166.1.2.2" = load i64, ptr %"$phi1166.1.2.2.in", align 8
+  %.901 = getelementptr i8, ptr %.847, i64 408
+  store i64 %"$phi1166.1.2.2", ptr %.901, align 8
+  %.908 = load i64, ptr %.371, align 8
+  %.909 = inttoptr i64 %.908 to ptr
+  %.8.i68 = load i64, ptr %.7.i, align 8, !noalias !368
+  %.9.i69 = inttoptr i64 %.8.i68 to ptr
+  %.10.i70 = getelementptr i8, ptr %.9.i69, i64 64
+  %.11.i71 = load i64, ptr %.10.i70, align 8, !noalias !368
+  %.13.i73 = load i64, ptr %.35, align 8, !noalias !368
+  %.14.i74 = mul nsw i64 %.13.i73, %.11.i71
+  %.15.i75 = getelementptr double, ptr %.909, i64 %.14.i74
+  %scevgep89 = getelementptr i8, ptr %.15.i75, i64 %35
+  %.937 = load double, ptr %scevgep89, align 8
+  %.938 = fcmp oeq double %.937, 1.000000e+00
+  br i1 %.938, label %B1252, label %B1362
+}
+
+
+define ptr @move_beside(ptr readonly %.1, ptr readonly %.2, i64 %.3, ptr %.4) local_unnamed_addr #0 {
+entry:
+  %.6 = alloca ptr, align 8
+  store ptr null, ptr %.6, align 8
+  %.10 = call i32 @_ZN18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
+  %.20 = load ptr, ptr %.6, align 8
+  ret ptr %.20
+}
+
+
+define i32 @_ZN18biped_adrc_kernels7samplesB4v118B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.inputs, ptr writeonly %arg.states, ptr %arg.codes, ptr %arg.impacts, ptr readonly %arg.teams) local_unnamed_addr #0 {
+B0.endif:
+  %.5.i1 = alloca ptr, align 8
+  %.3.i = alloca i64, align 8
+  %.6.i = alloca ptr, align 8
+  %.188 = alloca ptr, align 8
+  %excinfo.1 = alloca ptr, align 8
+  %.731 = alloca ptr, align 8
+  %excinfo.4 = alloca ptr, align 8
+  %.69 = icmp sgt i64 %arg.count, 0
+  br i1 %.69, label %B40, label %B356
+
+B40:
+  %.119168170 = phi i64 [ %.126, %B354 ], [ 0, %B0.endif ]
+  %.126 = add nuw nsw i64 %.119168170, 1
+  %0 = shl i64 %.119168170, 3
+  %scevgep15 = getelementptr i8, ptr %arg.impacts, i64 %0
+  store i64 -1, ptr %scevgep15, align 8
+  %scevgep14 = getelementptr i8, ptr %arg.codes, i64 %0
+  %.161 = load i64, ptr %scevgep14, align 8
+  %.162 = icmp eq i64 %.161, 0
+  br i1 %.162, label %B86, label %B354
+
+B86:
+  %scevgep13 = getelementptr i8, ptr %arg.walks, i64 %0
+  %.167 = load i64, ptr %scevgep13, align 8
+  %.168.not = icmp eq i64 %.167, 0
+  br i1 %.168.not, label %B354, label %B110
+
+B110:
+  %.174 = inttoptr i64 %.167 to ptr
+  %.175 = getelementptr i8, ptr %.174, i64 88
+  %.176 = load i64, ptr %.175, align 8
+  %.177 = add nsw i64 %.176, 2
+  %.179 = mul nsw i64 %.177, %.119168170
+  %.181 = getelementptr double, ptr %arg.inputs, i64 %.179
+  %.183 = getelementptr i8, ptr %.174, i64 328
+  %.184 = load i64, ptr %.183, align 8
+  %.185 = inttoptr i64 %.184 to ptr
+  %.192 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.188, ptr nonnull %excinfo.1, ptr %.181, ptr %.185, i64 %.176)
+  switch i32 %.192, label %B110.if.if [
+    i32 -2, label %B110.endif
+    i32 0, label %B110.endif
+  ], !prof !8
+
+B354:
+  %exitcond.not = icmp eq i64 %arg.count, %.126
+  br i1 %exitcond.not, label %B356, label %B40
+
+B356:
+  %.240 = load i64, ptr %arg.teams, align 8
+  %.241 = icmp sgt i64 %.240, 0
+  br i1 %.241, label %B380.else.if, label %B544.endif
+
+B442:
+  %.374174176 = phi i64 [ %.381, %B442 ], [ 0, %15 ]
+  %.381 = add nuw i64 %.374174176, 1
+  %1 = shl i64 %.374174176, 3
+  %scevgep11 = getelementptr i8, ptr %arg.teams, i64 %1
+  %scevgep12 = getelementptr i8, ptr %scevgep11, i64 8
+  %.409 = load i64, ptr %scevgep12, align 8
+  %.410 = inttoptr i64 %.409 to ptr
+  %.413 = load i64, ptr %arg.teams, align 8
+  %.414 = mul nsw i64 %.413, %.374174176
+  %.10.i = call i32 @_ZN18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr readonly %.410, ptr readonly %arg.walks, i64 %.414, ptr %arg.impacts) #0
+  %exitcond.not4 = icmp eq i64 %.255.1, %.374174176
+  br i1 %exitcond.not4, label %B544.endif, label %B442
+
+B576:
+  %lsr.iv = phi ptr [ %scevgep, %B576.preheader ], [ %scevgep5, %B1046 ]
+  %over.2.0189 = phi i64 [ 0, %B576.preheader ], [ %over.3.1, %B1046 ]
+  %.519183187 = phi i64 [ 0, %B576.preheader ], [ %.526, %B1046 ]
+  %.526 = add nuw nsw i64 %.519183187, 1
+  %2 = shl i64 %.519183187, 3
+  %scevgep10 = getelementptr i8, ptr %arg.impacts, i64 %2
+  %.561 = load i64, ptr %scevgep10, align 8
+  %.562.not = icmp eq i64 %.561, -1
+  br i1 %.562.not, label %B1046, label %B602
+
+B602:
+  %scevgep9 = getelementptr i8, ptr %arg.walks, i64 %2
+  %.569 = load i64, ptr %scevgep9, align 8
+  %.570 = inttoptr i64 %.569 to ptr
+  %.575 = getelementptr i8, ptr %.570, i64 352
+  %.577 = load double, ptr %.575, align 8
+  %.585 = icmp eq i64 %.561, -2
+  br i1 %.585, label %B734.endif, label %B706
+
+B706:
+  store i64 0, ptr %.3.i, align 8
+  %.7.i = call i32 @_ZN18biped_adrc_kernels6sampleB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull %.570) #0
+  %.17.i = load i64, ptr %.3.i, align 8
+  br label %B734.endif
+
+B832:
+  %.660 = load i64, ptr %scevgep8, align 8
+  %.661 = icmp ne i64 %.660, 0
+  %3 = zext i1 %.661 to i64
+  br label %B864.endif
+
+B1046:
+  %over.3.1 = phi i64 [ %over.2.0189, %B576 ], [ %.696, %B864.endif ], [ %.696, %B864.endif ]
+  %scevgep5 = getelementptr i8, ptr %lsr.iv, i64 %17
+  %exitcond196.not = icmp eq i64 %arg.count, %.526
+  br i1 %exitcond196.not, label %B1048, label %B576
+
+common.ret:
+  %common.ret.op = phi i32 [ 0, %B1048 ], [ %.192, %B110.if.if ], [ %.735, %B864.endif.if.if ]
+  ret i32 %common.ret.op
+
+B1048:
+  %over.2.0.lcssa = phi i64 [ 0, %B544.endif ], [ %over.3.1, %B1046 ]
+  store i64 %over.2.0.lcssa, ptr %retptr, align 8
+  br label %common.ret
+
+B110.endif:
+  %.213 = load i64, ptr %.175, align 8
+  %.214 = getelementptr double, ptr %.181, i64 %.213
+  %.215 = load double, ptr %.214, align 8
+  %.219 = getelementptr i8, ptr %.214, i64 8
+  %.220 = load double, ptr %.219, align 8
+  %.9.i = call i32 @_ZN18biped_adrc_kernels4pushB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i1, ptr nonnull poison, ptr nonnull %.174, double %.215, double %.220) #0
+  store i64 0, ptr %scevgep15, align 8
+  br label %B354
+
+B110.if.if:
+  store ptr null, ptr %excinfo, align 8
+  br label %common.ret
+
+B380.else.if:
+  %.244 = add nsw i64 %arg.count, -1
+  %4 = or i64 %.240, %.244
+  %5 = icmp ult i64 %4, 4294967296
+  br i1 %5, label %6, label %11
+
+6:
+  %7 = trunc nuw i64 %.240 to i32
+  %8 = trunc nuw i64 %.244 to i32
+  %9 = udiv i32 %8, %7
+  %10 = zext i32 %9 to i64
+  br label %15
+
+11:
+  %12 = sdiv i64 %.244, %.240
+  %13 = srem i64 %.244, %.240
+  %14 = ashr i64 %13, 63
+  br label %15
+
+15:
+  %16 = phi i64 [ %10, %6 ], [ %12, %11 ]
+  %.268.lobit = phi i64 [ 0, %6 ], [ %14, %11 ]
+  %.255.1 = add i64 %.268.lobit, %16
+  %.368175 = icmp sgt i64 %.255.1, -1
+  br i1 %.368175, label %B442, label %B544.endif
+
+B544.endif:
+  %.513186.not = icmp slt i64 %arg.count, 1
+  br i1 %.513186.not, label %B1048, label %B576.preheader
+
+B576.preheader:
+  %scevgep = getelementptr i8, ptr %arg.states, i64 16
+  %17 = shl i64 %arg.width, 3
+  br label %B576
+
+B734.endif:
+  %"$phi734.1.2.2" = phi i64 [ %.17.i, %B706 ], [ 0, %B602 ]
+  %scevgep8 = getelementptr i8, ptr %arg.codes, i64 %2
+  store i64 %"$phi734.1.2.2", ptr %scevgep8, align 8
+  %.606 = load double, ptr %.575, align 8
+  %.608 = fsub double %.606, %.577
+  %.5.i = fptosi double %.608 to i64
+  store i64 %.5.i, ptr %scevgep10, align 8
+  %.643 = icmp sgt i64 %.5.i, 0
+  br i1 %.643, label %B864.endif, label %B832
+
+B864.endif:
+  %"$phi864.4.2.2" = phi i64 [ 1, %B734.endif ], [ %3, %B832 ]
+  %.696 = add nsw i64 %"$phi864.4.2.2", %over.2.0189
+  %scevgep7 = getelementptr i8, ptr %lsr.iv, i64 -16
+  %.709 = getelementptr i8, ptr %.570, i64 344
+  %.711 = load double, ptr %.709, align 8
+  %.715 = load double, ptr %.575, align 8
+  store double %.711, ptr %scevgep7, align 8
+  %scevgep6 = getelementptr i8, ptr %lsr.iv, i64 -8
+  store double %.715, ptr %scevgep6, align 8
+  %.722 = getelementptr i8, ptr %.570, i64 664
+  %.723 = load i64, ptr %.722, align 8
+  %.724 = inttoptr i64 %.723 to ptr
+  %.727 = getelementptr i8, ptr %.570, i64 80
+  %.728 = load i64, ptr %.727, align 8
+  %.735 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.731, ptr nonnull %excinfo.4, ptr %.724, ptr %lsr.iv, i64 %.728)
+  switch i32 %.735, label %B864.endif.if.if [
+    i32 -2, label %B1046
+    i32 0, label %B1046
+  ], !prof !8
+
+B864.endif.if.if:
+  store ptr null, ptr %excinfo, align 8
+  br label %common.ret
+}
+
+
+define i64 @samples(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr writeonly %.5, ptr %.6, ptr %.7, ptr readonly %.8) local_unnamed_addr #0 {
+entry:
+  %.10 = alloca i64, align 8
+  store i64 0, ptr %.10, align 8
+  %excinfo = alloca ptr, align 8
+  %.14 = call i32 @_ZN18biped_adrc_kernels7samplesB4v118B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a(ptr nonnull %.10, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5, ptr %.6, ptr %.7, ptr %.8) #0
+  %cond = icmp eq i32 %.14, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !24
+
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
+
+common.ret:
+  %.24 = load i64, ptr %.10, align 8
+  ret i64 %.24
 }
 
 
 declare void @llvm.trap() #1
 
 
-declare <4 x double> @llvm.fabs.v4f64(<4 x double>) #5
+declare <4 x double> @llvm.fabs.v4f64(<4 x double>) #8
 
 
 
@@ -9412,6 +10664,9 @@ attributes #3 = { nounwind }
 attributes #4 = { nounwind }
 attributes #5 = { nounwind }
 attributes #6 = { nounwind }
+attributes #7 = { nounwind }
+attributes #8 = { nounwind }
+attributes #9 = { nounwind }
 
 !0 = !{!1}
 !1 = distinct !{!1, !2, !"_ZN18biped_adrc_kernels3addB2v2B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2ax: %retptr"}
@@ -9448,122 +10703,122 @@ attributes #6 = { nounwind }
 !32 = distinct !{!32, !33, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
 !33 = distinct !{!33, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
 !34 = !{!35, !37}
-!35 = distinct !{!35, !36, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!36 = distinct !{!36, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!37 = distinct !{!37, !36, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!38 = !{!39, !41}
-!39 = distinct !{!39, !40, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!40 = distinct !{!40, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!41 = distinct !{!41, !42, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!42 = distinct !{!42, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!43 = !{!41}
+!35 = distinct !{!35, !36, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!36 = distinct !{!36, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!37 = distinct !{!37, !38, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!38 = distinct !{!38, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!39 = !{!37}
+!40 = !{!41}
+!41 = distinct !{!41, !42, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!42 = distinct !{!42, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!43 = distinct !{!43, !4}
 !44 = !{!45}
-!45 = distinct !{!45, !46, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!46 = distinct !{!46, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!47 = distinct !{!47, !4}
-!48 = !{!49}
-!49 = distinct !{!49, !50, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!50 = distinct !{!50, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!51 = !{!52}
-!52 = distinct !{!52, !53, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
-!53 = distinct !{!53, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
-!54 = !{!55}
-!55 = distinct !{!55, !56, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!56 = distinct !{!56, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!57 = distinct !{!57, !6, !19}
-!58 = distinct !{!58, !6, !19}
-!59 = distinct !{!59, !19, !6}
-!60 = !{!61}
-!61 = distinct !{!61, !62, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!62 = distinct !{!62, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!63 = !{!64}
-!64 = distinct !{!64, !65, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!65 = distinct !{!65, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!66 = !{!67, !69}
-!67 = distinct !{!67, !68, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!68 = distinct !{!68, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!69 = distinct !{!69, !70, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!70 = distinct !{!70, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
-!71 = !{!69}
+!45 = distinct !{!45, !46, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!46 = distinct !{!46, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!47 = !{!48}
+!48 = distinct !{!48, !49, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad: %retptr"}
+!49 = distinct !{!49, !"_ZN18biped_adrc_kernels4noteB2v8B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ad"}
+!50 = !{!51}
+!51 = distinct !{!51, !52, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!52 = distinct !{!52, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!53 = distinct !{!53, !6, !19}
+!54 = distinct !{!54, !6, !19}
+!55 = distinct !{!55, !19, !6}
+!56 = !{!57}
+!57 = distinct !{!57, !58, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!58 = distinct !{!58, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!59 = !{!60}
+!60 = distinct !{!60, !61, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!61 = distinct !{!61, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!62 = !{!63, !65}
+!63 = distinct !{!63, !64, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!64 = distinct !{!64, !"_ZN18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!65 = distinct !{!65, !66, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!66 = distinct !{!66, !"_ZN18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!67 = !{!65}
+!68 = distinct !{!68, !4}
+!69 = distinct !{!69, !4}
+!70 = distinct !{!70, !6, !19}
+!71 = distinct !{!71, !6, !19}
 !72 = distinct !{!72, !4}
-!73 = distinct !{!73, !4}
+!73 = distinct !{!73, !6}
 !74 = distinct !{!74, !6, !19}
 !75 = distinct !{!75, !6, !19}
 !76 = distinct !{!76, !4}
 !77 = distinct !{!77, !6}
-!78 = distinct !{!78, !6, !19}
-!79 = distinct !{!79, !6, !19}
-!80 = distinct !{!80, !4}
-!81 = distinct !{!81, !6}
-!82 = !{!83}
-!83 = distinct !{!83, !84, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29: %retptr"}
-!84 = distinct !{!84, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29"}
-!85 = !{!86}
-!86 = distinct !{!86, !87, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
-!87 = distinct !{!87, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
-!88 = !{!89}
-!89 = distinct !{!89, !90, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
-!90 = distinct !{!90, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
-!91 = !{!92}
-!92 = distinct !{!92, !93, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29: %retptr"}
-!93 = distinct !{!93, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29"}
-!94 = !{!95}
-!95 = distinct !{!95, !96, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
-!96 = distinct !{!96, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
-!97 = !{!98}
-!98 = distinct !{!98, !99, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29: %retptr"}
-!99 = distinct !{!99, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29"}
-!100 = !{!101}
-!101 = distinct !{!101, !102, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29: %retptr"}
-!102 = distinct !{!102, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29"}
-!103 = distinct !{!103, !4}
-!104 = distinct !{!104, !105}
-!105 = !{!"llvm.loop.unswitch.partial.disable"}
-!106 = !{!"branch_weights", i32 34359737, i32 2113123911}
-!107 = !{!108}
-!108 = distinct !{!108, !109, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
-!109 = distinct !{!109, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
-!110 = !{!111, !113}
-!111 = distinct !{!111, !112, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!112 = distinct !{!112, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!113 = distinct !{!113, !112, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!114 = !{!115}
-!115 = distinct !{!115, !116, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
-!116 = distinct !{!116, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
-!117 = !{!118}
-!118 = distinct !{!118, !119, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
-!119 = distinct !{!119, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
-!120 = !{!121}
-!121 = distinct !{!121, !122, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
-!122 = distinct !{!122, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
-!123 = !{}
-!124 = !{!125, !127}
-!125 = distinct !{!125, !126, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!126 = distinct !{!126, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!127 = distinct !{!127, !126, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!128 = !{!129, !131}
-!129 = distinct !{!129, !130, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!130 = distinct !{!130, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!131 = distinct !{!131, !130, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!132 = !{!133}
-!133 = distinct !{!133, !134, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
-!134 = distinct !{!134, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
-!135 = !{!136, !138, !133}
-!136 = distinct !{!136, !137, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!137 = distinct !{!137, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!138 = distinct !{!138, !137, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!139 = !{!140}
-!140 = distinct !{!140, !141, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
-!141 = distinct !{!141, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
-!142 = !{!143, !145, !140}
-!143 = distinct !{!143, !144, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!144 = distinct !{!144, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!145 = distinct !{!145, !144, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!146 = distinct !{!146, !147}
-!147 = !{!"llvm.loop.peeled.count", i32 1}
+!78 = !{!79}
+!79 = distinct !{!79, !80, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29: %retptr"}
+!80 = distinct !{!80, !"_ZN18biped_adrc_kernels6matrixB3v27B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_280_29"}
+!81 = !{!82}
+!82 = distinct !{!82, !83, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
+!83 = distinct !{!83, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
+!84 = !{!85}
+!85 = distinct !{!85, !86, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
+!86 = distinct !{!86, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
+!87 = !{!88}
+!88 = distinct !{!88, !89, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29: %retptr"}
+!89 = distinct !{!89, !"_ZN18biped_adrc_kernels6matrixB3v32B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_282_29"}
+!90 = !{!91}
+!91 = distinct !{!91, !92, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a: %retptr"}
+!92 = distinct !{!92, !"_ZN18biped_adrc_kernels6matvecB3v30B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a10float64_2a"}
+!93 = !{!94}
+!94 = distinct !{!94, !95, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29: %retptr"}
+!95 = distinct !{!95, !"_ZN18biped_adrc_kernels6matrixB3v33B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_283_29"}
+!96 = !{!97}
+!97 = distinct !{!97, !98, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29: %retptr"}
+!98 = distinct !{!98, !"_ZN18biped_adrc_kernels6matrixB3v34B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax23Literal_5bint_5d_285_29"}
+!99 = distinct !{!99, !4}
+!100 = distinct !{!100, !101}
+!101 = !{!"llvm.loop.unswitch.partial.disable"}
+!102 = !{!"branch_weights", i32 34359737, i32 2113123911}
+!103 = !{!104}
+!104 = distinct !{!104, !105, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
+!105 = distinct !{!105, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!106 = !{!107}
+!107 = distinct !{!107, !108, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
+!108 = distinct !{!108, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!109 = !{!110}
+!110 = distinct !{!110, !111, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
+!111 = distinct !{!111, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
+!112 = !{!113}
+!113 = distinct !{!113, !114, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
+!114 = distinct !{!114, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
+!115 = !{}
+!116 = !{!117}
+!117 = distinct !{!117, !118, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
+!118 = distinct !{!118, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
+!119 = !{!120}
+!120 = distinct !{!120, !121, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad: %retptr"}
+!121 = distinct !{!121, !"_ZN18biped_adrc_kernels5reachB3v39B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2ad"}
+!122 = distinct !{!122, !123}
+!123 = !{!"llvm.loop.peeled.count", i32 1}
+!124 = !{!125}
+!125 = distinct !{!125, !126, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
+!126 = distinct !{!126, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!127 = !{!128}
+!128 = distinct !{!128, !129, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!129 = distinct !{!129, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!130 = distinct !{!130, !6, !19}
+!131 = distinct !{!131, !6, !19}
+!132 = distinct !{!132, !19, !6}
+!133 = !{!134}
+!134 = distinct !{!134, !135, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
+!135 = distinct !{!135, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!136 = !{!137}
+!137 = distinct !{!137, !138, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!138 = distinct !{!138, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!139 = distinct !{!139, !123}
+!140 = !{!141}
+!141 = distinct !{!141, !142, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
+!142 = distinct !{!142, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!143 = !{!144}
+!144 = distinct !{!144, !145, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!145 = distinct !{!145, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!146 = distinct !{!146, !4}
+!147 = distinct !{!147, !4}
 !148 = !{!149}
-!149 = distinct !{!149, !150, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
-!150 = distinct !{!150, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!149 = distinct !{!149, !150, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
+!150 = distinct !{!150, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
 !151 = !{!152}
 !152 = distinct !{!152, !153, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
 !153 = distinct !{!153, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
@@ -9571,141 +10826,216 @@ attributes #6 = { nounwind }
 !155 = distinct !{!155, !6, !19}
 !156 = distinct !{!156, !19, !6}
 !157 = !{!158}
-!158 = distinct !{!158, !159, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
-!159 = distinct !{!159, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
+!158 = distinct !{!158, !159, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!159 = distinct !{!159, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
 !160 = !{!161}
-!161 = distinct !{!161, !162, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!162 = distinct !{!162, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!163 = distinct !{!163, !147}
-!164 = !{!165, !167}
-!165 = distinct !{!165, !166, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!166 = distinct !{!166, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!167 = distinct !{!167, !166, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!168 = !{!169}
-!169 = distinct !{!169, !170, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd: %retptr"}
-!170 = distinct !{!170, !"_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd"}
-!171 = !{!172}
-!172 = distinct !{!172, !173, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!173 = distinct !{!173, !"_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!174 = distinct !{!174, !4}
-!175 = !{!176, !178}
-!176 = distinct !{!176, !177, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!177 = distinct !{!177, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!178 = distinct !{!178, !177, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!179 = !{!180, !182}
-!180 = distinct !{!180, !181, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!181 = distinct !{!181, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!182 = distinct !{!182, !181, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!183 = !{!184, !186}
-!184 = distinct !{!184, !185, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!185 = distinct !{!185, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!186 = distinct !{!186, !185, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!187 = distinct !{!187, !4}
-!188 = !{!189}
-!189 = distinct !{!189, !190, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
-!190 = distinct !{!190, !"_ZN18biped_adrc_kernels4joinB3v36B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!161 = distinct !{!161, !162, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!162 = distinct !{!162, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!163 = !{!164}
+!164 = distinct !{!164, !165, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!165 = distinct !{!165, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!166 = !{!167}
+!167 = distinct !{!167, !168, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!168 = distinct !{!168, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!169 = !{!170}
+!170 = distinct !{!170, !171, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!171 = distinct !{!171, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!172 = distinct !{!172, !4}
+!173 = !{!174}
+!174 = distinct !{!174, !175, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!175 = distinct !{!175, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!176 = !{!177}
+!177 = distinct !{!177, !178, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!178 = distinct !{!178, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!179 = !{!180}
+!180 = distinct !{!180, !181, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!181 = distinct !{!181, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
+!182 = !{!183}
+!183 = distinct !{!183, !184, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
+!184 = distinct !{!184, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!185 = !{!186}
+!186 = distinct !{!186, !187, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!187 = distinct !{!187, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!188 = distinct !{!188, !6, !19}
+!189 = distinct !{!189, !6, !19}
+!190 = distinct !{!190, !19, !6}
 !191 = !{!192}
-!192 = distinct !{!192, !193, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!193 = distinct !{!193, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!194 = distinct !{!194, !6, !19}
-!195 = distinct !{!195, !6, !19}
-!196 = distinct !{!196, !19, !6}
+!192 = distinct !{!192, !193, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!193 = distinct !{!193, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!194 = !{!195}
+!195 = distinct !{!195, !196, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!196 = distinct !{!196, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
 !197 = !{!198}
-!198 = distinct !{!198, !199, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!199 = distinct !{!199, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!198 = distinct !{!198, !199, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!199 = distinct !{!199, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !200 = !{!201}
-!201 = distinct !{!201, !202, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!202 = distinct !{!202, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!203 = !{!204}
-!204 = distinct !{!204, !205, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!205 = distinct !{!205, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!206 = !{!207}
-!207 = distinct !{!207, !208, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!208 = distinct !{!208, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!209 = !{!210}
-!210 = distinct !{!210, !211, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!211 = distinct !{!211, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!212 = distinct !{!212, !4}
-!213 = !{!214}
-!214 = distinct !{!214, !215, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
-!215 = distinct !{!215, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
-!216 = !{!217}
-!217 = distinct !{!217, !218, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!218 = distinct !{!218, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!201 = distinct !{!201, !202, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!202 = distinct !{!202, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!203 = !{!204, !206}
+!204 = distinct !{!204, !205, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!205 = distinct !{!205, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!206 = distinct !{!206, !205, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %excinfo"}
+!207 = distinct !{!207, !4}
+!208 = !{!209}
+!209 = distinct !{!209, !210, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
+!210 = distinct !{!210, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
+!211 = distinct !{!211, !4}
+!212 = !{!213}
+!213 = distinct !{!213, !214, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!214 = distinct !{!214, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!215 = !{!216}
+!216 = distinct !{!216, !217, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!217 = distinct !{!217, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!218 = distinct !{!218, !4}
 !219 = !{!220}
-!220 = distinct !{!220, !221, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!221 = distinct !{!221, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
-!222 = !{!223}
-!223 = distinct !{!223, !224, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a: %retptr"}
-!224 = distinct !{!224, !"_ZN18biped_adrc_kernels5splitB3v62B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a10float64_2a"}
+!220 = distinct !{!220, !221, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
+!221 = distinct !{!221, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
+!222 = distinct !{!222, !6, !19}
+!223 = distinct !{!223, !6, !19}
+!224 = distinct !{!224, !19, !6}
 !225 = !{!226}
-!226 = distinct !{!226, !227, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!227 = distinct !{!227, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!228 = distinct !{!228, !6, !19}
-!229 = distinct !{!229, !6, !19}
-!230 = distinct !{!230, !19, !6}
+!226 = distinct !{!226, !227, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!227 = distinct !{!227, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!228 = !{!229}
+!229 = distinct !{!229, !230, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!230 = distinct !{!230, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !231 = !{!232}
-!232 = distinct !{!232, !233, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
-!233 = distinct !{!233, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!232 = distinct !{!232, !233, !"_ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a: %retptr"}
+!233 = distinct !{!233, !"_ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a"}
 !234 = !{!235}
-!235 = distinct !{!235, !236, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!236 = distinct !{!236, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
-!237 = !{!238}
-!238 = distinct !{!238, !239, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!239 = distinct !{!239, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!235 = distinct !{!235, !236, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!236 = distinct !{!236, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!237 = !{!238, !235}
+!238 = distinct !{!238, !239, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!239 = distinct !{!239, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !240 = !{!241}
-!241 = distinct !{!241, !242, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!242 = distinct !{!242, !"_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!243 = !{!244, !246, !241}
-!244 = distinct !{!244, !245, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!245 = distinct !{!245, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a"}
-!246 = distinct !{!246, !245, !"_ZN18biped_adrc_kernels5watchB3v10B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad10float64_2a10float64_2a: %excinfo"}
-!247 = !{!248, !250}
-!248 = distinct !{!248, !249, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!249 = distinct !{!249, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!250 = distinct !{!250, !249, !"_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %excinfo"}
-!251 = distinct !{!251, !4}
+!241 = distinct !{!241, !242, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!242 = distinct !{!242, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!243 = !{!244, !246}
+!244 = distinct !{!244, !245, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!245 = distinct !{!245, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!246 = distinct !{!246, !247, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!247 = distinct !{!247, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!248 = !{!246}
+!249 = !{!250}
+!250 = distinct !{!250, !251, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!251 = distinct !{!251, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
 !252 = !{!253}
-!253 = distinct !{!253, !254, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
-!254 = distinct !{!254, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
+!253 = distinct !{!253, !254, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!254 = distinct !{!254, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
 !255 = distinct !{!255, !4}
-!256 = !{!257}
-!257 = distinct !{!257, !258, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!258 = distinct !{!258, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!259 = !{!260}
-!260 = distinct !{!260, !261, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!261 = distinct !{!261, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!262 = distinct !{!262, !4}
+!256 = distinct !{!256, !4}
+!257 = !{!258}
+!258 = distinct !{!258, !259, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!259 = distinct !{!259, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!260 = !{!261}
+!261 = distinct !{!261, !262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!262 = distinct !{!262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
 !263 = !{!264}
-!264 = distinct !{!264, !265, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax: %retptr"}
-!265 = distinct !{!265, !"_ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax"}
-!266 = distinct !{!266, !6, !19}
-!267 = distinct !{!267, !6, !19}
-!268 = distinct !{!268, !19, !6}
+!264 = distinct !{!264, !265, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!265 = distinct !{!265, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!266 = !{!267, !264}
+!267 = distinct !{!267, !268, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!268 = distinct !{!268, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !269 = !{!270}
-!270 = distinct !{!270, !271, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!271 = distinct !{!271, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!272 = !{!273}
+!270 = distinct !{!270, !271, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!271 = distinct !{!271, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!272 = !{!273, !270}
 !273 = distinct !{!273, !274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
 !274 = distinct !{!274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!275 = !{!276, !278}
-!276 = distinct !{!276, !277, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %retptr"}
-!277 = distinct !{!277, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a"}
-!278 = distinct !{!278, !277, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %excinfo"}
-!279 = !{!280}
-!280 = distinct !{!280, !281, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add: %retptr"}
-!281 = distinct !{!281, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add"}
-!282 = !{!283}
-!283 = distinct !{!283, !284, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add: %retptr"}
-!284 = distinct !{!284, !"_ZN18biped_adrc_kernels4pushB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add"}
-!285 = !{!286, !288}
-!286 = distinct !{!286, !287, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %retptr"}
-!287 = distinct !{!287, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a"}
-!288 = distinct !{!288, !287, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %excinfo"}
-!289 = !{!290}
-!290 = distinct !{!290, !291, !"_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a: %retptr"}
-!291 = distinct !{!291, !"_ZN18biped_adrc_kernels5looksB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a"}
-!292 = !{!293, !295, !290}
-!293 = distinct !{!293, !294, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %retptr"}
-!294 = distinct !{!294, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a"}
-!295 = distinct !{!295, !294, !"_ZN18biped_adrc_kernels4lookB3v79B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a: %excinfo"}
+!275 = !{!276}
+!276 = distinct !{!276, !277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
+!277 = distinct !{!277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
+!278 = !{!279}
+!279 = distinct !{!279, !280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
+!280 = distinct !{!280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
+!281 = !{!282}
+!282 = distinct !{!282, !283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!283 = distinct !{!283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!284 = !{!285}
+!285 = distinct !{!285, !286, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!286 = distinct !{!286, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!287 = !{!288}
+!288 = distinct !{!288, !289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!289 = distinct !{!289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!290 = !{!291}
+!291 = distinct !{!291, !292, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29: %retptr"}
+!292 = distinct !{!292, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29"}
+!293 = !{!294}
+!294 = distinct !{!294, !295, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29: %retptr"}
+!295 = distinct !{!295, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29"}
+!296 = !{!297}
+!297 = distinct !{!297, !298, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29: %retptr"}
+!298 = distinct !{!298, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29"}
+!299 = !{!300}
+!300 = distinct !{!300, !301, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!301 = distinct !{!301, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!302 = !{!303}
+!303 = distinct !{!303, !304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!304 = distinct !{!304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!305 = !{!306}
+!306 = distinct !{!306, !307, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!307 = distinct !{!307, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!308 = !{!309}
+!309 = distinct !{!309, !310, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
+!310 = distinct !{!310, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
+!311 = !{!312}
+!312 = distinct !{!312, !313, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29: %retptr"}
+!313 = distinct !{!313, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29"}
+!314 = !{!315}
+!315 = distinct !{!315, !316, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax: %retptr"}
+!316 = distinct !{!316, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax"}
+!317 = !{!318}
+!318 = distinct !{!318, !319, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
+!319 = distinct !{!319, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
+!320 = !{!321}
+!321 = distinct !{!321, !322, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!322 = distinct !{!322, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!323 = !{!324}
+!324 = distinct !{!324, !325, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!325 = distinct !{!325, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!326 = !{!327}
+!327 = distinct !{!327, !328, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!328 = distinct !{!328, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!329 = !{!330}
+!330 = distinct !{!330, !331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
+!331 = distinct !{!331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
+!332 = !{!333}
+!333 = distinct !{!333, !334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
+!334 = distinct !{!334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
+!335 = !{!336}
+!336 = distinct !{!336, !337, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!337 = distinct !{!337, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!338 = distinct !{!338, !4}
+!339 = !{!340}
+!340 = distinct !{!340, !341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!341 = distinct !{!341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!342 = !{!343}
+!343 = distinct !{!343, !344, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax: %retptr"}
+!344 = distinct !{!344, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax"}
+!345 = !{!346}
+!346 = distinct !{!346, !347, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!347 = distinct !{!347, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!348 = !{!349}
+!349 = distinct !{!349, !350, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!350 = distinct !{!350, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
+!351 = distinct !{!351, !4}
+!352 = !{!353}
+!353 = distinct !{!353, !354, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
+!354 = distinct !{!354, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
+!355 = !{!356}
+!356 = distinct !{!356, !357, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!357 = distinct !{!357, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!358 = !{!359}
+!359 = distinct !{!359, !360, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!360 = distinct !{!360, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
+!361 = distinct !{!361, !4}
+!362 = !{!363}
+!363 = distinct !{!363, !364, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
+!364 = distinct !{!364, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
+!365 = !{!366}
+!366 = distinct !{!366, !367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!367 = distinct !{!367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!368 = !{!369}
+!369 = distinct !{!369, !370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!370 = distinct !{!370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
