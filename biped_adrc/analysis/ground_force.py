@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -65,18 +65,13 @@ class Nodes:
         """The columns of `rows` by name, with a leading axis of K; a repeated time is a jump."""
         return node_layout(self.n, self.p).tree(self.rows)
 
-    @cached_property
-    def _columns(self) -> Indices:
-        """Index in a row of the first number of each of NODE_COLUMNS, as the compiled loops read it."""
-        layout = node_layout(self.n, self.p)
-        return np.array([layout.place(*path).start for path in NODE_COLUMNS])
-
     @property
     def pointers(self) -> tuple[int, int, int, int]:
         """The first arguments of the compiled loops: address of the rows, how many numbers a row has, address
         of the indices at which its columns begin, p.
         """
-        return self.rows.ctypes.data, self.rows.shape[1], self._columns.ctypes.data, self.p
+        columns = _columns(self.n, self.p)
+        return self.rows.ctypes.data, self.rows.shape[1], columns.ctypes.data, self.p
 
     @property
     def steps(self) -> range:
@@ -93,6 +88,13 @@ class Nodes:
         """Index of the last node of each single support (S,)."""
         # edges (S + 1,): first node of each, and K
         return self.edges[1:] - 1
+
+
+@cache
+def _columns(n: int, p: int) -> Indices:
+    """Index in a row of the first number of each of NODE_COLUMNS, as the compiled loops read it."""
+    layout = node_layout(n, p)
+    return np.array([layout.place(*path).start for path in NODE_COLUMNS])
 
 
 class Known(NamedTuple):

@@ -148,14 +148,8 @@ def _tick(b: _Block, tick: SymbolicFunction) -> _Block:
     b.finite(x)
     b.positive(out[nx])
     b.store_all("%out", [b.t, b.step, b.start], 0)
-    for part, size in (
-        (at.DROP, 1),
-        (at.FARTHEST, 1),
-        (at.FASTEST, n),
-        (at.BREAK, 1),
-        (at.NEXT, 1),
-    ):
-        b.store_all("%out", b.part(part, size), b.rows[part])
+    first, end = b.rows[at.DROP], b.rows[at.MARK]  # parts that do not change here
+    b.store_all("%out", [b.row(i) for i in range(first, end)], first)
     b.store_all("%out", x, b.rows[at.X])
     b.store_all("%out", slope, b.rows[at.SLOPE])
     b.mark("%out")
@@ -201,7 +195,11 @@ def _step(b: _Block, flow: SymbolicFunction, events: SymbolicFunction) -> _Block
     found = b.call(events, t1, b.start, b.row(b.rows[at.DROP]), *end[: s.n])[:3]
     # each of these is false for NaN; bounds of q, then of v
     b.finite(end[2 * s.n : s.moving])
-    b.positive(*found)
+    # an event function falls through zero nowhere: it is above zero, or was not and stays so
+    for w, before in zip(found, b.part(at.VALUES, 3), strict=True):
+        low = (new(f"fcmp ole double {x}, 0.0") for x in (w, before))
+        stays = new("and i1 " + ", ".join(low))
+        b.good.append(new(f"or i1 {new(f'fcmp ogt double {w}, 0.0')}, {stays}"))
     bounds = [b.row(b.rows[at.FARTHEST])] * s.n + b.part(at.FASTEST, s.n)
     for a, bound in zip(end, bounds, strict=False):
         size = new(f"call double @llvm.fabs.f64(double {a})")

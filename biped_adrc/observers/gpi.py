@@ -38,6 +38,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from itertools import accumulate
 from math import factorial
 
@@ -45,7 +46,7 @@ import numpy as np
 
 from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.part import SETUP, derived
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.observers.base import (
     ChainObserver,
     ErrorSystem,
@@ -173,6 +174,13 @@ class GPIObserver(InjectedChain):
         return cls.from_poles(equal_poles(bandwidth, m + 2))
 
 
+@cache
+def _transition(k: int) -> Array:
+    """Transition matrix (k, k) of k integrators in a chain over one unit of time."""
+    rows = [[1.0 / factorial(j - i) if j >= i else 0.0 for j in range(k)] for i in range(k)]
+    return read_only(np.array(rows))
+
+
 @dataclass(frozen=True)
 class SampledChain(ChainObserver):
     """The discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi does not contain T.
@@ -186,11 +194,11 @@ class SampledChain(ChainObserver):
     continuous: InjectedChain = field(metadata=SETUP)
     period: float
 
-    @derived
+    @property
     def Phi(self) -> Array:
         """Transition matrix (k, k) of the scaled states over one period, dimensionless."""
-        k = range(self.order)
-        return np.array([[1.0 / factorial(j - i) if j >= i else 0.0 for j in k] for i in k])
+        # no derived number: k alone decides it, and in machine code its zeros and ones cost nothing
+        return _transition(self.order)
 
     @derived
     def Gamma(self) -> Array:
@@ -210,4 +218,5 @@ class SampledChain(ChainObserver):
 
     def predict(self, z: Array, input: Array) -> Array:
         """State z one period later under a constant input (p,) [rad/s^2], a force [N m] for one integrator."""
-        return self.Phi @ z + np.outer(self.Gamma, input)
+        moved, lead = self.Phi @ z, self.lead  # Gamma is zero behind its first `lead` numbers
+        return np.concatenate((moved[:lead] + np.outer(self.Gamma[:lead], input), moved[lead:]))

@@ -118,11 +118,13 @@ class RobotAndGait:
             from biped_adrc.analysis.stability import cycle_start
 
             return cycle_start(self.biped, self.slope(s))
-        q, v = self.on_orbit
-        x, random = s.start, np.random.default_rng(drawn(s, "start"))
-        q = q + x.spread * random.standard_normal(len(q))
-        v = v + x.rate_spread * random.standard_normal(len(v))
-        v = v * (1.0 + x.speed + x.speed_spread * random.standard_normal())
+        (q, v), x, speed = (y.copy() for y in self.on_orbit), s.start, s.start.speed
+        if x.spread or x.rate_spread or x.speed_spread:
+            random = np.random.default_rng(drawn(s, "start"))
+            q += x.spread * random.standard_normal(len(q))
+            v += x.rate_spread * random.standard_normal(len(v))
+            speed += x.speed_spread * random.standard_normal()
+        v *= 1.0 + speed
         for name, added in x.own.items():
             place = int(name[1:]) - 1  # "q5" or "v5" is entry 4
             if not 0 <= place < len(q):
@@ -320,6 +322,8 @@ def _ground(s: Scenario) -> Steps:
     """
     # last: number of the last single support; the heights are drawn from the first on, whatever `first_step` is
     g, last = s.ground, s.run.first_step + s.run.impacts - 1
+    if not (g.rms or g.step_height or g.drop):
+        return ()
     seed = drawn(s, "ground")  # of both; where rms or step_height is 0, nothing comes of it
     each = np.random.default_rng(seed).uniform(-g.step_height, g.step_height, last)
     steps = uneven_ground(seed, g.rms, last) + stepped(each)

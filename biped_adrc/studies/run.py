@@ -219,8 +219,10 @@ def counted(n: Nodes, tracked: Nodes, found: Feasibility, soft: bool = False) ->
     # totals: largest and rms error, of `tracked`; rms torque, work and net work, of all nodes. The ratio of
     # impulses is None without an impact
     # OF_TOTALS: columns that are sums over the nodes; JUDGED: those that `Feasibility` has
+    of_all = totals(n)
+    errors = of_all[:2] if tracked is n else totals(tracked)[:2]
     return {
-        **dict(zip(OF_TOTALS, (*totals(tracked)[:2], *totals(n)[2:]), strict=True)),
+        **dict(zip(OF_TOTALS, (*errors, *of_all[2:]), strict=True)),
         "outcome": outcome,
         "feasible": int(outcome == "feasible"),
         "but_impact": int(outcome == "but_impact"),

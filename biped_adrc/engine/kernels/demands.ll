@@ -1,4 +1,4 @@
-; sources 90f876f55fcb5c0965ed9ea8b8398633, text 0f3c2c2d0bcbf01592fb38de8d01a105
+; sources 0bdb22d93954207331154cb23a906111, text 0f3c2c2d0bcbf01592fb38de8d01a105
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v120B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null

@@ -1,4 +1,4 @@
-; sources 6e9048e050b0164a72285ee636f29d57, text 6d889a88f803c54bf58b346079071b97
+; sources 58c70da84da6c34c199eccad3453a3d9, text e86e986693961e2a3dfe8b78cc2110ea
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -93,14 +93,14 @@
 @_ZN08NumbaEnv18biped_adrc_kernels9next_tickB3v75B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v52B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v12B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3aimB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
@@ -112,15 +112,15 @@
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v87B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v88B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels12side_by_sideB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB4v115B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7samplesB4v118B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB4v119B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
@@ -8790,7 +8790,7 @@ common.ret:
   %.11.i2 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i, ptr %.37, i64 %.39) #0
   %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !260
   %.9.i3 = inttoptr i64 %.8.i2 to ptr
-  %.10.i = getelementptr i8, ptr %.9.i3, i64 56
+  %.10.i = getelementptr i8, ptr %.9.i3, i64 72
   %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !260
   %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !260
   %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
@@ -8890,7 +8890,7 @@ common.ret:
   %.7.i = getelementptr i8, ptr %arg.s, i64 552
   %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !275
   %.9.i = inttoptr i64 %.8.i28 to ptr
-  %.10.i = getelementptr i8, ptr %.9.i, i64 88
+  %.10.i = getelementptr i8, ptr %.9.i, i64 56
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !275
   %.12.i = getelementptr i8, ptr %arg.s, i64 536
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !275
@@ -8900,7 +8900,7 @@ common.ret:
   store double %"$phi108.0.2.0", ptr %.124, align 8
   %.8.i30 = load i64, ptr %.7.i, align 8, !noalias !278
   %.9.i31 = inttoptr i64 %.8.i30 to ptr
-  %.10.i32 = getelementptr i8, ptr %.9.i31, i64 96
+  %.10.i32 = getelementptr i8, ptr %.9.i31, i64 64
   %.11.i33 = load i64, ptr %.10.i32, align 8, !noalias !278
   %.13.i35 = load i64, ptr %.12.i, align 8, !noalias !278
   %.14.i36 = mul nsw i64 %.13.i35, %.11.i33
@@ -8909,7 +8909,7 @@ common.ret:
   store double %.94.pre-phi.i.i, ptr %.157, align 8
   %.8.i39 = load i64, ptr %.7.i, align 8, !noalias !281
   %.9.i40 = inttoptr i64 %.8.i39 to ptr
-  %.10.i41 = getelementptr i8, ptr %.9.i40, i64 64
+  %.10.i41 = getelementptr i8, ptr %.9.i40, i64 80
   %.11.i42 = load i64, ptr %.10.i41, align 8, !noalias !281
   %.13.i44 = load i64, ptr %.12.i, align 8, !noalias !281
   %.14.i45 = mul nsw i64 %.13.i44, %.11.i42
@@ -8959,7 +8959,7 @@ common.ret:
   %.42 = load i64, ptr %.41, align 8
   %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !287
   %.9.i3 = inttoptr i64 %.8.i2 to ptr
-  %.10.i = getelementptr i8, ptr %.9.i3, i64 56
+  %.10.i = getelementptr i8, ptr %.9.i3, i64 72
   %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !287
   %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !287
   %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
@@ -9160,7 +9160,7 @@ B0.endif.endif:
   %.7.i = getelementptr i8, ptr %arg.s, i64 552
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !302
   %.9.i = inttoptr i64 %.8.i to ptr
-  %.10.i = getelementptr i8, ptr %.9.i, i64 80
+  %.10.i = getelementptr i8, ptr %.9.i, i64 96
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !302
   %.12.i = getelementptr i8, ptr %arg.s, i64 536
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !302
@@ -9435,7 +9435,7 @@ B132.endif:
   %.13.i.i = select i1 %.12.i.i, double %.23.le.i, double 1.000000e+00
   %.5.i.i = fptosi double %.13.i.i to i64
   %.35 = inttoptr i64 %.34 to ptr
-  %.69 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.35, i64 12, i64 %.5.i.i)
+  %.69 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.35, i64 8, i64 %.5.i.i)
   br label %common.ret
 
 B232.endif.endif:
@@ -9448,7 +9448,7 @@ B232.endif.endif:
   %.13.i.i7 = select i1 %.12.i.i6, double %.23.le.i5, double 1.000000e+00
   %.5.i.i8 = fptosi double %.13.i.i7 to i64
   %.77 = inttoptr i64 %.34 to ptr
-  %.109 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.77, i64 11, i64 %.5.i.i8)
+  %.109 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.77, i64 7, i64 %.5.i.i8)
   %.113 = load i64, ptr %.19, align 8
   %.114 = inttoptr i64 %.113 to ptr
   %.7.i = getelementptr i8, ptr %arg.s, i64 552
@@ -9481,7 +9481,7 @@ B232.endif.endif.endif.endif.endif.endif:
   %.201 = inttoptr i64 %.200 to ptr
   %.8.i13 = load i64, ptr %.7.i, align 8, !noalias !329
   %.9.i14 = inttoptr i64 %.8.i13 to ptr
-  %.10.i15 = getelementptr i8, ptr %.9.i14, i64 96
+  %.10.i15 = getelementptr i8, ptr %.9.i14, i64 64
   %.11.i16 = load i64, ptr %.10.i15, align 8, !noalias !329
   %.13.i18 = load i64, ptr %.12.i, align 8, !noalias !329
   %.14.i19 = mul nsw i64 %.13.i18, %.11.i16
@@ -9500,7 +9500,7 @@ B232.endif.endif.endif.endif.endif.endif:
   %.252 = inttoptr i64 %.251 to ptr
   %.8.i22 = load i64, ptr %.7.i, align 8, !noalias !332
   %.9.i23 = inttoptr i64 %.8.i22 to ptr
-  %.10.i24 = getelementptr i8, ptr %.9.i23, i64 88
+  %.10.i24 = getelementptr i8, ptr %.9.i23, i64 56
   %.11.i25 = load i64, ptr %.10.i24, align 8, !noalias !332
   %.13.i27 = load i64, ptr %.12.i, align 8, !noalias !332
   %.14.i28 = mul nsw i64 %.13.i27, %.11.i25
@@ -9516,7 +9516,7 @@ B232.endif.endif.endif.endif.endif.endif:
   %.12.i.i36 = fcmp ogt double %.23.le.i35, 1.000000e+00
   %.13.i.i37 = select i1 %.12.i.i36, double %.23.le.i35, double 1.000000e+00
   %.5.i.i38 = fptosi double %.13.i.i37 to i64
-  %.313 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.15.i29, i64 12, i64 %.5.i.i38)
+  %.313 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.15.i29, i64 8, i64 %.5.i.i38)
   br label %common.ret
 }
 
@@ -9862,7 +9862,7 @@ B246.endif:
   %.384 = inttoptr i64 %.383 to ptr
   %.8.i = load i64, ptr %sunkaddr117, align 8, !noalias !339
   %.9.i = inttoptr i64 %.8.i to ptr
-  %.10.i = getelementptr i8, ptr %.9.i, i64 64
+  %.10.i = getelementptr i8, ptr %.9.i, i64 80
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !339
   %.13.i = load i64, ptr %.44, align 8, !noalias !339
   %.14.i = mul nsw i64 %.13.i, %.11.i
@@ -10388,7 +10388,7 @@ B1166.endif:
   %.855 = inttoptr i64 %.854 to ptr
   %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !365
   %.9.i51 = inttoptr i64 %.8.i50 to ptr
-  %.10.i52 = getelementptr i8, ptr %.9.i51, i64 64
+  %.10.i52 = getelementptr i8, ptr %.9.i51, i64 80
   %.11.i53 = load i64, ptr %.10.i52, align 8, !noalias !365
   %.13.i55 = load i64, ptr %.35, align 8, !noalias !365
   %.14.i56 = mul nsw i64 %.13.i55, %.11.i53
@@ -10405,7 +10405,7 @@ B1166.endif:
   %.909 = inttoptr i64 %.908 to ptr
   %.8.i68 = load i64, ptr %.7.i, align 8, !noalias !368
   %.9.i69 = inttoptr i64 %.8.i68 to ptr
-  %.10.i70 = getelementptr i8, ptr %.9.i69, i64 64
+  %.10.i70 = getelementptr i8, ptr %.9.i69, i64 80
   %.11.i71 = load i64, ptr %.10.i70, align 8, !noalias !368
   %.13.i73 = load i64, ptr %.35, align 8, !noalias !368
   %.14.i74 = mul nsw i64 %.13.i73, %.11.i71
@@ -10929,8 +10929,8 @@ attributes #9 = { nounwind }
 !258 = distinct !{!258, !259, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
 !259 = distinct !{!259, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
 !260 = !{!261}
-!261 = distinct !{!261, !262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
-!262 = distinct !{!262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!261 = distinct !{!261, !262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
+!262 = distinct !{!262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
 !263 = !{!264}
 !264 = distinct !{!264, !265, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
 !265 = distinct !{!265, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
@@ -10944,20 +10944,20 @@ attributes #9 = { nounwind }
 !273 = distinct !{!273, !274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
 !274 = distinct !{!274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !275 = !{!276}
-!276 = distinct !{!276, !277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
-!277 = distinct !{!277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
+!276 = distinct !{!276, !277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!277 = distinct !{!277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
 !278 = !{!279}
-!279 = distinct !{!279, !280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
-!280 = distinct !{!280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
+!279 = distinct !{!279, !280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!280 = distinct !{!280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
 !281 = !{!282}
-!282 = distinct !{!282, !283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!283 = distinct !{!283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!282 = distinct !{!282, !283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!283 = distinct !{!283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
 !284 = !{!285}
 !285 = distinct !{!285, !286, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
 !286 = distinct !{!286, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
 !287 = !{!288}
-!288 = distinct !{!288, !289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
-!289 = distinct !{!289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!288 = distinct !{!288, !289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
+!289 = distinct !{!289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
 !290 = !{!291}
 !291 = distinct !{!291, !292, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29: %retptr"}
 !292 = distinct !{!292, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29"}
@@ -10971,8 +10971,8 @@ attributes #9 = { nounwind }
 !300 = distinct !{!300, !301, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
 !301 = distinct !{!301, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
 !302 = !{!303}
-!303 = distinct !{!303, !304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!304 = distinct !{!304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!303 = distinct !{!303, !304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
+!304 = distinct !{!304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
 !305 = !{!306}
 !306 = distinct !{!306, !307, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
 !307 = distinct !{!307, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
@@ -10998,18 +10998,18 @@ attributes #9 = { nounwind }
 !327 = distinct !{!327, !328, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
 !328 = distinct !{!328, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
 !329 = !{!330}
-!330 = distinct !{!330, !331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
-!331 = distinct !{!331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
+!330 = distinct !{!330, !331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!331 = distinct !{!331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
 !332 = !{!333}
-!333 = distinct !{!333, !334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
-!334 = distinct !{!334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
+!333 = distinct !{!333, !334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!334 = distinct !{!334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
 !335 = !{!336}
 !336 = distinct !{!336, !337, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
 !337 = distinct !{!337, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
 !338 = distinct !{!338, !4}
 !339 = !{!340}
-!340 = distinct !{!340, !341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!341 = distinct !{!341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!340 = distinct !{!340, !341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!341 = distinct !{!341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
 !342 = !{!343}
 !343 = distinct !{!343, !344, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax: %retptr"}
 !344 = distinct !{!344, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax"}
@@ -11034,8 +11034,8 @@ attributes #9 = { nounwind }
 !363 = distinct !{!363, !364, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
 !364 = distinct !{!364, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
 !365 = !{!366}
-!366 = distinct !{!366, !367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!367 = distinct !{!367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!366 = distinct !{!366, !367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!367 = distinct !{!367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
 !368 = !{!369}
-!369 = distinct !{!369, !370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!370 = distinct !{!370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!369 = distinct !{!369, !370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!370 = distinct !{!370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}

@@ -34,20 +34,20 @@ vertical forces on both feet."""
 
 # A block of several walks has rows, each with one number of every walk. Its first rows are t, the number of the
 # single support and its start; the others begin at the places that `block_rows` returns, in this order:
-X, LOAD, T1, LIMIT, DROP, FARTHEST, FASTEST, VALUES, MARK = range(9)
-SLOPE, WEIGHTS, BREAK, NEXT, STAGE, STAGE_LOAD, END = range(9, 16)
+X, LOAD, T1, LIMIT, DROP, FARTHEST, FASTEST, BREAK, NEXT = range(9)
+VALUES, MARK, SLOPE, WEIGHTS, STAGE, STAGE_LOAD, END = range(9, 16)
 """State (nx,); disturbance (n,) and force from outside (OUTSIDE,) at t; end of the step [s]; latest time [s] at
 which the disturbance is evaluated in it; how much lower the ground is at the end of this single support [m];
-bounds of angles [rad] and rates (n,) [rad/s]; event functions (3,) at the end of the step; mark, 1 where all
-went as usual, else 0; x' (nx,) at t; weights of lagging torques (4,); time [s] from which the waiting torque
-acts, and of the next sample instant; time, single support and (q, v) at a stage, and disturbance and force
-there. At END stand two cells: the address of the compiled disturbance, 0 for none, and of its numbers."""
+bounds of angles [rad] and rates (n,) [rad/s]; time [s] from which the waiting torque acts, and of the next
+sample instant; event functions (3,) at t; mark, 1 where all went as usual, else 0; x' (nx,) at t; weights of
+lagging torques (4,); time, single support and (q, v) at a stage, and disturbance and force there. At END stand
+two cells: the address of the compiled disturbance, 0 for none, and of its numbers."""
 
 
 def block_rows(n: int, nx: int) -> Ints:
     """First rows of the parts of a block, for n coordinates and states of nx numbers."""
     push = n + OUTSIDE
-    return np.cumsum((3, nx, push, 1, 1, 1, 1, n, 3, 1, nx, 4, 1, 1, 3 + 2 * n, push))
+    return np.cumsum((3, nx, push, 1, 1, 1, 1, n, 1, 1, 3, 1, nx, 4, 3 + 2 * n, push))
 
 
 class Run:
