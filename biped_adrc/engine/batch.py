@@ -206,9 +206,8 @@ def walks_of(
     def made() -> list[BatchWalk]:
         walks = dict[int, BatchWalk]()
         for lanes, team in zip(codes, teams, strict=True):
-            walks |= zip(
-                team, _side_by_side(lanes, [run.going() for run in team.values()]), strict=True
-            )
+            beside = _side_by_side(lanes, [run.going() for run in team.values()])
+            walks |= zip(team, beside, strict=True)
         return [walks[i] if i in walks else run() for i, run in enumerate(runs)]
 
     return made
@@ -355,20 +354,14 @@ class _Going:
     """
 
     def __init__(
-        self,
-        compiled: CompiledWalker,
-        x: Array,
-        mode: Mode,
-        t_end: float,
-        impacts: int,
-        read: int = 0,
+        self, of: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int, read: int = 0
     ):
-        self.run, self.read = compiled.plan.start(x, mode.start, *mode, t_end), read
+        self.run, self.read = of.plan.start(x, mode.start, *mode, t_end), read
         self.left, self.start, self.status = impacts, mode.start, Status.COMPLETED
         self.parts, self.rows = list[Array](), list[Array]()
         """Rows (t, x-, x+) of the impacts, and those of the table."""
         if read:  # memory for the rows of so many single supports
-            self.run.keep(compiled.walker.max_step_time, min(impacts, _AT_ONCE), read)
+            self.run.keep(of.walker.max_step_time, min(impacts, _AT_ONCE), read)
 
     def next(self) -> CompiledRun:
         """The run, ready to be moved over the next impacts."""

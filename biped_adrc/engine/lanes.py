@@ -27,8 +27,6 @@ from biped_adrc.engine.structure import structure
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.status import Status
 
-LAWS = ("tick", "slope", "step")
-"""The functions of `engine.stretch`."""
 SIDE_BY_SIDE = 16
 """Least number of walks of one structure that go side by side: to compile their code takes half a second,
 once."""
@@ -76,27 +74,16 @@ class Lanes:
     def of(cls, compiled: CompiledWalker, read: bool, lanes: int | None = None) -> Lanes:
         """Compile, or find, the code for walks like this one; lanes: how many, by default `width`."""
         program, lanes, terms = compiled.program, lanes or width(), compiled.terms
-        n, more = (
-            program.numbers.plant.n,
-            (int(compiled.plan["moving"]), int(compiled.plan["lags"]), lanes),
-        )
-
-        def written() -> str:
-            from biped_adrc.engine.stretch import stretch_text
-
-            return stretch_text(program.equations, *more)
-
-        def pushed() -> str:
-            from biped_adrc.engine.stretch import push_text
-
-            return push_text(terms, n, lanes)
-
-        code = generated_text(("lanes", program.key, *more), LAWS, written).addresses
-        laws = dict.fromkeys(("pushes", "look"), 0)
-        laws |= {"tick": code["tick"], "flow": code["slope"], "events": code["step"]}
+        more = int(compiled.plan["moving"]), int(compiled.plan["lags"]), lanes
+        key, laws = ("lanes", program.key, *more), dict.fromkeys(("pushes", "look"), 0)
+        names = "tick", "slope", "step"
+        code = generated_text(key, names, lambda: _text("stretch", program.equations, *more))
+        laws |= zip(("tick", "flow", "events"), map(code.addresses.__getitem__, names), strict=True)
         if terms:
-            key = "push", n, structure(terms), lanes
-            laws["pushes"] = generated_text(key, ("push",), pushed).addresses["push"]
+            n = program.numbers.plant.n
+            push = "push", structure(terms), n, lanes
+            code = generated_text(push, ("push",), lambda: _text("push", terms, n, lanes))
+            laws["pushes"] = code.addresses["push"]
         if read:
             laws["look"] = program.reading(step_reading, lanes).addresses["reading"]
         return cls(lanes, laws)
@@ -125,6 +112,14 @@ class Lanes:
         codes = np.zeros_like(walks)
         kernels().side_by_side(team.run.address, walks.ctypes.data, len(runs), codes.ctypes.data)
         return [STATUS[code] for code in codes.tolist()]
+
+
+def _text(what: str, *arguments: Any) -> str:
+    """The text of a function of `engine.stretch`; the import is here, as it brings CasADi in."""
+    from biped_adrc.engine import stretch
+
+    text: str = getattr(stretch, f"{what}_text")(*arguments)
+    return text
 
 
 class Team(NamedTuple):

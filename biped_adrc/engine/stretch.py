@@ -17,6 +17,7 @@ tick(K, from, to) reads a block and writes to another one; slope(K, block, _) an
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import Equations, SymbolicFunction, push_function
@@ -31,8 +32,8 @@ def stretch_text(equations: Equations, moving: int, lags: int, lanes: int) -> st
 
     moving: how many numbers of x flow. lags: index in x of the first torque of lagging motors, 0 without.
     """
-    n, p, nx = equations.numbers.plant.n, equations.numbers.plant.p, equations.nx
-    sizes, flow = _Sizes(n, p, nx, moving, lags), equations.flow()
+    plant, flow = equations.numbers.plant, equations.flow()
+    sizes = _Sizes(plant.n, plant.p, equations.nx, moving, lags)
     parts = {
         "tick": _tick(_Block(sizes, lanes), equations.tick()),
         "slope": _slope(_Block(sizes, lanes), flow),
@@ -42,12 +43,14 @@ def stretch_text(equations: Equations, moving: int, lags: int, lanes: int) -> st
     return "\n".join([declarations(lanes), *texts])
 
 
-class _Sizes:
-    """Sizes of a walker, and the first rows of the parts of a block."""
+class _Sizes(NamedTuple):
+    """Coordinates, motors, numbers in x, how many of them flow, and the first lagging torque."""
 
-    def __init__(self, n: int, p: int, nx: int, moving: int, lags: int):
-        self.n, self.p, self.nx, self.moving, self.lags = n, p, nx, moving, lags
-        self.rows: list[int] = at.block_rows(n, nx).tolist()
+    n: int
+    p: int
+    nx: int
+    moving: int
+    lags: int
 
 
 class _Block(Listing):
@@ -55,7 +58,8 @@ class _Block(Listing):
 
     def __init__(self, sizes: _Sizes, lanes: int):
         super().__init__("v", lanes)
-        self.sizes, self.rows, self.pushes, self.good = sizes, sizes.rows, 0, list[str]()
+        self.sizes, self.pushes, self.good = sizes, 0, list[str]()
+        self.rows: list[int] = at.block_rows(sizes.n, sizes.nx).tolist()
         self.t, self.step, self.start = (self.row(i) for i in range(3))
         # the two cells behind the rows: addresses of the compiled disturbance and of its numbers
         for k, name in enumerate(("push", "numbers")):

@@ -119,7 +119,8 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
         some = trials[i : i + size]
         with _PREPARING:
             runs = _each(prepared, some)
-        walks = walks_of([x if isinstance(x, Ready) else partial(_walked, x) for x in runs])()
+            made = walks_of([x if isinstance(x, Ready) else partial(_walked, x) for x in runs])
+        walks = made()
         with _PREPARING:
             pairs = zip(some, walks, strict=True)
             rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]

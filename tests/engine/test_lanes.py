@@ -26,6 +26,7 @@ SETTINGS = {
         **BEHIND_ENCODERS,
     },
     "lagging motors": {"hardware.lag": "2 ms", "controller.name": "NPID", **SAMPLED},
+    "torques beyond their bound at a sample instant": {"hardware.lag": "3 ms", **SAMPLED},
     "steps shorter than the period": {"run.h": "0.4 ms", "ground.drop": 0.004, **SAMPLED},
     "touchdowns noticed by kinematics": {"hardware.touchdown.name": "kinematics", **SAMPLED},
 }
@@ -44,12 +45,12 @@ class Bent(ba.NPDController):
 
 
 def cases(values, count=6, curve=True):
-    """Walks of a scenario with masses, starts and numbers of impacts of their own; the last one falls."""
-    for k in range(count):
+    """Walks of a scenario with masses, starts and numbers of impacts of their own; the last two fail."""
+    factors = [*(1.0 + 0.01 * k for k in range(count - 2)), 3.0, 0.2]
+    for k, factor in enumerate(factors):
         more = {"run.seed": k, "errors.mass_width": 0.05, "run.impacts": 1 + k % 3}
         case = trial_of(ba.Scenario("ADRC").replace(values | more)).case
-        v = case.v * (0.2 if k == count - 1 else 1.0 + 0.01 * k)
-        yield replace(case, v=v, curve=case.curve if curve else None)
+        yield replace(case, v=factor * case.v, curve=case.curve if curve else None)
 
 
 def same(one, other):
@@ -78,7 +79,7 @@ def test_walks_side_by_side_are_those_alone(name, curve):
     assert len({one.key for one in ready}) == 1
     assert ready[0].key is not None
     alone = [one() for one in ready]
-    assert len({walk.status for walk in alone}) == 2  # some completed, one did not
+    assert any(walk.status is not ba.Status.COMPLETED for walk in alone)
     for width in (1, 2, 4):
         assert all(map(same, alone, beside(ready, width)))
 

@@ -44,7 +44,8 @@ def go_on(r: Run) -> int:
     if r.armed == 0:
         arm(r)  # type: ignore[arg-type]
     code = travel(r)  # type: ignore[arg-type]
-    if r.count == count:  # `travel` has stored no node
+    # `travel` has stored no node; in the middle of an arc there are those of before
+    if r.count == count and r.t == r.t_arc:
         for i in range(r.nx):
             r.dx0[i] = 0.0
         keep(r, r.t, r.x0, r.dx0)  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-; sources 58c70da84da6c34c199eccad3453a3d9, text e86e986693961e2a3dfe8b78cc2110ea
+; sources 8fa2e11411c7e4609e475c1c60e9c9ab, text 928bc1b1e80124d40abff4d5ac0f4dbe
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -6817,7 +6817,7 @@ _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2f
   %.78.0.ph = phi i64 [ 0, %B116 ], [ %.25.i4, %B36.i ], [ %.60.i, %B170.i ], [ 0, %B186.i ]
   %.107 = load i64, ptr %.8, align 8
   %.109 = icmp eq i64 %.107, %.9
-  br i1 %.109, label %B168.endif, label %B300
+  br i1 %.109, label %B168, label %B332
 
 _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit:
   %.38.i = load ptr, ptr %excinfo.1.i, align 8, !noalias !203
@@ -6826,80 +6826,91 @@ _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2f
   store ptr %.91, ptr %excinfo, align 8
   br label %common.ret
 
-B210:
-  %.2014749 = phi i64 [ 0, %B210.lr.ph.new ], [ %.208.7, %B210 ]
-  %.235 = load i64, ptr %sunkaddr34, align 8
-  %.236 = inttoptr i64 %.235 to ptr
-  %0 = shl i64 %.2014749, 3
-  %scevgep28 = getelementptr i8, ptr %.236, i64 %0
+B168:
+  %.116 = load double, ptr %.8.i1, align 8
+  %.118 = getelementptr i8, ptr %arg.r, i64 376
+  %.120 = load double, ptr %.118, align 8
+  %.121 = fcmp oeq double %.116, %.120
+  br i1 %.121, label %B200.endif, label %B332
+
+B242:
+  %.2114749 = phi i64 [ 0, %B242.lr.ph.new ], [ %.218.7, %B242 ]
+  %.245 = load i64, ptr %sunkaddr35, align 8
+  %.246 = inttoptr i64 %.245 to ptr
+  %0 = shl i64 %.2114749, 3
+  %scevgep28 = getelementptr i8, ptr %.246, i64 %0
   store double 0.000000e+00, ptr %scevgep28, align 8
-  %.235.1 = load i64, ptr %sunkaddr34, align 8
-  %.236.1 = inttoptr i64 %.235.1 to ptr
-  %scevgep26 = getelementptr i8, ptr %.236.1, i64 8
+  %.245.1 = load i64, ptr %sunkaddr35, align 8
+  %.246.1 = inttoptr i64 %.245.1 to ptr
+  %scevgep26 = getelementptr i8, ptr %.246.1, i64 8
   %scevgep27 = getelementptr i8, ptr %scevgep26, i64 %0
   store double 0.000000e+00, ptr %scevgep27, align 8
-  %.235.2 = load i64, ptr %sunkaddr34, align 8
-  %.236.2 = inttoptr i64 %.235.2 to ptr
-  %scevgep24 = getelementptr i8, ptr %.236.2, i64 16
+  %.245.2 = load i64, ptr %sunkaddr35, align 8
+  %.246.2 = inttoptr i64 %.245.2 to ptr
+  %scevgep24 = getelementptr i8, ptr %.246.2, i64 16
   %scevgep25 = getelementptr i8, ptr %scevgep24, i64 %0
   store double 0.000000e+00, ptr %scevgep25, align 8
-  %.235.3 = load i64, ptr %sunkaddr34, align 8
-  %.236.3 = inttoptr i64 %.235.3 to ptr
-  %scevgep22 = getelementptr i8, ptr %.236.3, i64 24
+  %.245.3 = load i64, ptr %sunkaddr35, align 8
+  %.246.3 = inttoptr i64 %.245.3 to ptr
+  %scevgep22 = getelementptr i8, ptr %.246.3, i64 24
   %scevgep23 = getelementptr i8, ptr %scevgep22, i64 %0
   store double 0.000000e+00, ptr %scevgep23, align 8
-  %.235.4 = load i64, ptr %sunkaddr34, align 8
-  %.236.4 = inttoptr i64 %.235.4 to ptr
-  %scevgep20 = getelementptr i8, ptr %.236.4, i64 32
+  %.245.4 = load i64, ptr %sunkaddr35, align 8
+  %.246.4 = inttoptr i64 %.245.4 to ptr
+  %scevgep20 = getelementptr i8, ptr %.246.4, i64 32
   %scevgep21 = getelementptr i8, ptr %scevgep20, i64 %0
   store double 0.000000e+00, ptr %scevgep21, align 8
-  %.235.5 = load i64, ptr %sunkaddr34, align 8
-  %.236.5 = inttoptr i64 %.235.5 to ptr
-  %scevgep18 = getelementptr i8, ptr %.236.5, i64 40
+  %.245.5 = load i64, ptr %sunkaddr35, align 8
+  %.246.5 = inttoptr i64 %.245.5 to ptr
+  %scevgep18 = getelementptr i8, ptr %.246.5, i64 40
   %scevgep19 = getelementptr i8, ptr %scevgep18, i64 %0
   store double 0.000000e+00, ptr %scevgep19, align 8
-  %.235.6 = load i64, ptr %sunkaddr34, align 8
-  %.236.6 = inttoptr i64 %.235.6 to ptr
-  %scevgep16 = getelementptr i8, ptr %.236.6, i64 48
+  %.245.6 = load i64, ptr %sunkaddr35, align 8
+  %.246.6 = inttoptr i64 %.245.6 to ptr
+  %scevgep16 = getelementptr i8, ptr %.246.6, i64 48
   %scevgep17 = getelementptr i8, ptr %scevgep16, i64 %0
   store double 0.000000e+00, ptr %scevgep17, align 8
-  %.208.7 = add nuw nsw i64 %.2014749, 8
-  %.235.7 = load i64, ptr %sunkaddr34, align 8
-  %.236.7 = inttoptr i64 %.235.7 to ptr
-  %scevgep14 = getelementptr i8, ptr %.236.7, i64 56
+  %.218.7 = add nuw nsw i64 %.2114749, 8
+  %.245.7 = load i64, ptr %sunkaddr35, align 8
+  %.246.7 = inttoptr i64 %.245.7 to ptr
+  %scevgep14 = getelementptr i8, ptr %.246.7, i64 56
   %scevgep15 = getelementptr i8, ptr %scevgep14, i64 %0
   store double 0.000000e+00, ptr %scevgep15, align 8
-  %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.208.7
-  br i1 %niter.ncmp.7, label %B234.loopexit.unr-lcssa, label %B210
+  %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.218.7
+  br i1 %niter.ncmp.7, label %B266.loopexit.unr-lcssa, label %B242
 
-B234.loopexit.unr-lcssa:
+B266.loopexit.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
-  br i1 %lcmp.mod.not, label %B234, label %B210.epil.preheader
+  br i1 %lcmp.mod.not, label %B266.loopexit, label %B242.epil.preheader
 
-B210.epil.preheader:
-  %.2014749.epil.init = phi i64 [ 0, %B210.lr.ph ], [ %unroll_iter, %B234.loopexit.unr-lcssa ]
-  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 672
-  br label %B210.epil
+B242.epil.preheader:
+  %.2114749.epil.init = phi i64 [ 0, %B242.lr.ph ], [ %unroll_iter, %B266.loopexit.unr-lcssa ]
+  %sunkaddr36 = getelementptr i8, ptr %arg.r, i64 672
+  br label %B242.epil
 
-B210.epil:
-  %lsr.iv = phi i64 [ %lsr.iv.next, %B210.epil ], [ %xtraiter, %B210.epil.preheader ]
-  %.2014749.epil = phi i64 [ %.208.epil, %B210.epil ], [ %.2014749.epil.init, %B210.epil.preheader ]
-  %.208.epil = add nuw nsw i64 %.2014749.epil, 1
-  %.235.epil = load i64, ptr %sunkaddr35, align 8
-  %.236.epil = inttoptr i64 %.235.epil to ptr
-  %1 = shl i64 %.2014749.epil, 3
-  %scevgep = getelementptr i8, ptr %.236.epil, i64 %1
+B242.epil:
+  %lsr.iv = phi i64 [ %lsr.iv.next, %B242.epil ], [ %xtraiter, %B242.epil.preheader ]
+  %.2114749.epil = phi i64 [ %.218.epil, %B242.epil ], [ %.2114749.epil.init, %B242.epil.preheader ]
+  %.218.epil = add nuw nsw i64 %.2114749.epil, 1
+  %.245.epil = load i64, ptr %sunkaddr36, align 8
+  %.246.epil = inttoptr i64 %.245.epil to ptr
+  %1 = shl i64 %.2114749.epil, 3
+  %scevgep = getelementptr i8, ptr %.246.epil, i64 %1
   store double 0.000000e+00, ptr %scevgep, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B234, label %B210.epil, !llvm.loop !207
+  br i1 %epil.iter.cmp.not, label %B266.loopexit, label %B242.epil, !llvm.loop !207
 
-B234:
-  %.248 = load double, ptr %.8.i1, align 8
-  %.250 = getelementptr i8, ptr %arg.r, i64 664
-  %.251 = load i64, ptr %.250, align 8
-  %.254 = getelementptr i8, ptr %arg.r, i64 672
-  %.255 = load i64, ptr %.254, align 8
+B266.loopexit:
+  %.258.pre = load double, ptr %.8.i1, align 8
+  br label %B266
+
+B266:
+  %.258 = phi double [ %.258.pre, %B266.loopexit ], [ %.116, %B200.endif ]
+  %.260 = getelementptr i8, ptr %arg.r, i64 664
+  %.261 = load i64, ptr %.260, align 8
+  %.264 = getelementptr i8, ptr %arg.r, i64 672
+  %.265 = load i64, ptr %.264, align 8
   %.17.i = getelementptr i8, ptr %arg.r, i64 400
   %.18.i = load i64, ptr %.17.i, align 8, !noalias !208
   %.19.i = icmp sgt i64 %.18.i, 0
@@ -6909,19 +6920,19 @@ B26.i:
   %.22.i7 = getelementptr i8, ptr %arg.r, i64 64
   %.23.i = load i64, ptr %.22.i7, align 8, !noalias !208
   %.24.not.i = icmp eq i64 %.23.i, 0
-  br i1 %.24.not.i, label %B300, label %B48.i
+  br i1 %.24.not.i, label %B332, label %B48.i
 
 B48.i:
-  %2 = inttoptr i64 %.255 to ptr
-  %3 = inttoptr i64 %.251 to ptr
-  %.30.i8 = tail call ptr @node(ptr nonnull %arg.r, double %.248, ptr %3, ptr %2), !noalias !208
-  br label %B300
+  %2 = inttoptr i64 %.265 to ptr
+  %3 = inttoptr i64 %.261 to ptr
+  %.30.i8 = tail call ptr @node(ptr nonnull %arg.r, double %.258, ptr %3, ptr %2), !noalias !208
+  br label %B332
 
 common.ret:
-  %common.ret.op = phi i32 [ 0, %B300 ], [ %.22, %B0.if.if ], [ %.37.i5, %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
+  %common.ret.op = phi i32 [ 0, %B332 ], [ %.22, %B0.if.if ], [ %.37.i5, %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
   ret i32 %common.ret.op
 
-B300:
+B332:
   store i64 %.78.0.ph, ptr %retptr, align 8
   br label %common.ret
 
@@ -6935,21 +6946,21 @@ B0.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B168.endif:
-  %.114 = getelementptr i8, ptr %arg.r, i64 80
-  %.115 = load i64, ptr %.114, align 8
-  %.19548.not = icmp slt i64 %.115, 1
-  br i1 %.19548.not, label %B234, label %B210.lr.ph
+B200.endif:
+  %.124 = getelementptr i8, ptr %arg.r, i64 80
+  %.125 = load i64, ptr %.124, align 8
+  %.20548.not = icmp slt i64 %.125, 1
+  br i1 %.20548.not, label %B266, label %B242.lr.ph
 
-B210.lr.ph:
-  %xtraiter = and i64 %.115, 7
-  %4 = icmp samesign ult i64 %.115, 8
-  br i1 %4, label %B210.epil.preheader, label %B210.lr.ph.new
+B242.lr.ph:
+  %xtraiter = and i64 %.125, 7
+  %4 = icmp samesign ult i64 %.125, 8
+  br i1 %4, label %B242.epil.preheader, label %B242.lr.ph.new
 
-B210.lr.ph.new:
-  %unroll_iter = and i64 %.115, 9223372036854775800
-  %sunkaddr34 = getelementptr i8, ptr %arg.r, i64 672
-  br label %B210
+B242.lr.ph.new:
+  %unroll_iter = and i64 %.125, 9223372036854775800
+  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 672
+  br label %B242
 }
 
 
