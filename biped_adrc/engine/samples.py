@@ -285,6 +285,8 @@ class SampledWalks:
         self._laws = dict[Reading, tuple[Ints, Array]]()
         """For each function that was read: addresses of its machine code (N,), and its results (N, size)."""
         self._kernels = kernels()
+        self._arguments: tuple[int, ...] = ()
+        """Of the kernel `samples`, from the first walk on."""
         self._key: Hashable = None
         """What walks that go side by side have in common (`Lanes.key`); None for none."""
         self._teams = list[Team]()
@@ -301,6 +303,9 @@ class SampledWalks:
         self.all[i], self.codes[i] = walk, code
         self._addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
         self._sit(i, walk)
+        arrays = (self._addresses, self.inputs, self.rows, self.codes, self._impacts)
+        at, *others = (x.ctypes.data for x in (*arrays, self._addresses_of_teams))
+        self._arguments = at, len(self.all), self.rows.shape[1], *others
         # the functions that were read have other machine code for another walk
         for view, (laws, _) in self._laws.items():
             laws[i] = self._law(i, view)
@@ -329,8 +334,11 @@ class SampledWalks:
 
     def _in_python(self) -> Iterator[tuple[int, PythonWalk]]:
         """Iterate over the walks that are moved in Python, with their numbers."""
-        for i in np.flatnonzero((self._addresses == 0) & (self.codes >= 0)).tolist():
-            yield i, cast(PythonWalk, self.all[i])
+        # `all` is quick where each has an address in memory, as most often
+        places = () if self._addresses.all() else np.flatnonzero(self._addresses == 0).tolist()
+        for i in places:
+            if self.codes[i] >= 0:
+                yield i, cast(PythonWalk, self.all[i])
 
     def move(self) -> tuple[bool, list[tuple[int, ClosedLoop[Any], Arc]]]:
         """Move the walks that go on by one sample under `inputs`; `rows` and `codes` are then theirs.
@@ -338,16 +346,7 @@ class SampledWalks:
         Returns whether a single support ended in machine code (`struck` says which), and of those that ended in
         Python the number of the walk, its loop and the arc.
         """
-        arrays = (
-            self._addresses,
-            self.inputs,
-            self.rows,
-            self.codes,
-            self._impacts,
-            self._addresses_of_teams,
-        )
-        walks, *states = (x.ctypes.data for x in arrays)
-        ends = self._kernels.samples(walks, len(self.all), self.rows.shape[1], *states)
+        ends = self._kernels.samples(*self._arguments)
         over = list[tuple[int, ClosedLoop[Any], Arc]]()
         for i, walk in self._in_python():
             if self.codes[i] == 0:  # the walk goes on; below 0 it has not begun, above it has ended

@@ -10,11 +10,12 @@ from llvmlite import binding
 
 import biped_adrc as ba
 from biped_adrc.engine import ir, lanes
-from biped_adrc.engine.batch import Preparation, Ready, simulate_many, walks_of
+from biped_adrc.engine.batch import Preparation, Ready, simulate_many, strides, walks_of
 from biped_adrc.engine.calls import FUNCTION
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.lanes import SIDE_BY_SIDE, Lanes
 from biped_adrc.engine.machine import load_or_compile
+from biped_adrc.engine.program import CompiledWalker
 from biped_adrc.studies.build import trial_of
 
 SAMPLED = {"hardware.period": "1 ms", "run.impacts": 2}
@@ -118,6 +119,20 @@ def test_a_batch_of_all_kinds_is_that_of_walks_alone(biped, gait):
     for threads in (1, 2):
         walks = [*simulate_many(many, threads)]
         assert all(same(alone[k // 2], walk) for k, walk in enumerate(walks))
+
+
+def test_a_return_map_of_many_starts_is_that_of_each():
+    """One single support from each of 21 states; of a walker in continuous time they are made one by one."""
+    case = next(cases(SAMPLED, curve=False))
+    for walker in (case.walker, replace(case.walker, timing=ba.ContinuousTime())):
+        x = walker.initial_state(case.q, case.v, case.mode)
+        compiled = CompiledWalker.of(walker, ba.RK4(1e-4), walker.layout_of(x))
+        random = np.random.default_rng(2).normal(0.0, 1e-3, (21, len(x)))
+        starts = [(x + d * (np.arange(len(x)) < 10), case.mode) for d in random]
+        many = strides(compiled, starts, 2.0)
+        each = [strides(compiled, [start], 2.0)[0] for start in starts]
+        assert all(map(same, many, each))
+        assert not walker.sampled or any(walk.impacts for walk in many)
 
 
 def test_a_stepper_of_many_is_that_of_few():
