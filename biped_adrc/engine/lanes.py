@@ -55,8 +55,8 @@ class Lanes:
     def key(
         cls, compiled: CompiledWalker, read: bool, pulled: bool | None = None
     ) -> Hashable | None:
-        """What walks side by side have in common; None for a walk that goes by itself: in continuous time, with
-        long steps, or with a force from outside at nodes that are kept.
+        """What walks side by side have in common; None for a walk that goes by itself: with the exponential
+        method, with long steps, or with a force from outside at nodes that are kept.
 
         read: whether nodes are kept. pulled: whether a force from outside acts, other than a stepper's; None:
         what the plan says.
@@ -64,8 +64,8 @@ class Lanes:
         run, program = compiled.plan, compiled.program
         pulled = bool(run["pulled"]) if pulled is None else pulled
         clock = tuple(run[name] for name in ("period", "h", "part", "moving", "lags"))
-        long = min(run["period"], run["h"]) > constants.RESOLUTION
-        if not run["period"] or run["kind"] != constants.RK4 or long or (read and pulled):
+        long = min(run["period"] or run["h"], run["h"]) > constants.RESOLUTION
+        if run["kind"] != constants.RK4 or long or (read and pulled):
             return None
         curve = read and structure(program.numbers.curve)
         return program.key, structure(compiled.terms), clock, curve
@@ -76,9 +76,12 @@ class Lanes:
         program, lanes, terms = compiled.program, lanes or width(), compiled.terms
         more = int(compiled.plan["moving"]), int(compiled.plan["lags"]), lanes
         key, laws = ("lanes", program.key, *more), dict.fromkeys(("pushes", "look"), 0)
-        names = "tick", "slope", "step"
+        names = ("slope", "step", *(["tick"] if program.numbers.held else []))
         code = generated_text(key, names, lambda: _text("stretch", program.equations, *more))
-        laws |= zip(("tick", "flow", "events"), map(code.addresses.__getitem__, names), strict=True)
+        # by the fields of one walk's functions in a run
+        laws |= zip(
+            ("flow", "events", "tick"), map(code.addresses.__getitem__, names), strict=False
+        )
         if terms:
             n = program.numbers.plant.n
             push = "push", structure(terms), n, lanes

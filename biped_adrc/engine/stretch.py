@@ -35,7 +35,11 @@ def stretch_text(equations: Equations, moving: int, lags: int, lanes: int) -> st
     plant, flow = equations.numbers.plant, equations.flow()
     sizes = _Sizes(plant.n, plant.p, equations.nx, moving, lags)
     parts = {
-        "tick": _tick(_Block(sizes, lanes), equations.tick()),
+        **(
+            {"tick": _tick(_Block(sizes, lanes), equations.tick())}
+            if equations.numbers.held
+            else {}
+        ),
         "slope": _slope(_Block(sizes, lanes), flow),
         "step": _step(_Block(sizes, lanes), flow, equations.events()),
     }

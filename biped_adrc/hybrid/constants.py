@@ -20,8 +20,8 @@ their number."""
 COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
 NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT, RAN_AWAY = 4, 5, 6, 7, 8
 """Codes of how an arc ends: places in `hybrid.status.Status`. Inside the march 0 means that it goes on."""
-STRUCK = 9
-"""Code that is no status: an event with a reset ended the arc."""
+STRUCK, PAUSED = 9, 10
+"""Codes that are no status: an event with a reset ended the arc; the march stopped after a step, to go on."""
 
 RESOLUTION = 2e-3
 """Longest stretch of a step without a look at the event functions [s]."""

@@ -543,16 +543,21 @@ def through(r: Run, t_next: float) -> int:
     """Take the steps from x0 at t to t_next [s], between which there is no break; returns a code, 0 at t_next.
 
     Steps are counted and their length not added up, so round-off does not grow. More than MOST_STEPS steps,
-    or a step without length, end as STEP_FAILED.
+    or a step without length, end as STEP_FAILED. A compiled run with r.pause returns after each step, PAUSED,
+    and goes on when it is called again (r.done: steps so far, r.t_from: time of the first [s]).
     """
-    t0 = t = r.t
-    skipped, steps, code = 0, 0, 0  # skipped: steps since the last node
+    steps, r.done = r.done, 0
+    if steps == 0:
+        r.t_from = r.t
+    t0, t = r.t_from, r.t
+    skipped, code = 0, 0  # skipped: steps since the last node
     r.limit = left(t_next)
     # LANDING: round-off in the count. np.ceil gives a float in both engines; math.ceil would give an
     # int, which has only 64 bits when compiled
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
-    begin(r, t, r.h if count > 1.0 else t_next - t)
-    keep(r, t, r.x0, r.dx0)
+    if steps == 0:
+        begin(r, t, r.h if count > 1.0 else t_next - t)
+        keep(r, t, r.x0, r.dx0)
     while t < t_next:
         steps += 1
         if r.kind == SOLVER:
@@ -575,6 +580,9 @@ def through(r: Run, t_next: float) -> int:
         # here only where a force from outside may jump (r.pulled)
         if r.look != 0 and (t < t_next or r.pulled != 0):
             node(r, t, r.x0, r.dx0)
+        if r.pause != 0 and t < t_next:
+            r.done = steps
+            return PAUSED
     return 0
 
 

@@ -130,15 +130,16 @@ class Run:
         self.calendar, self.method, self.record = calendar, method, record
         self.system, self.mode = calendar.system, calendar.mode
         self.t, self.t_end, self.limit, self.t_event = t, calendar.t_end, math.inf, 0.0
+        self.t_from = t
         self.event_functions = self.system.guards(self.mode)
         names = [guard.name for guard in self.event_functions]
         self.guards, self.before = len(names), np.zeros(len(names))
         # number of the guard that ended the arc before; -1 for none, or for one that this mode has not
         self.fired = names.index(fired.guard) if fired and fired.guard in names else -1
         self.t_arc, self.armed, self.sloped, self.every = t, 0, 0, record.every
-        # look, pulled and sloped stay 0, and all of x flows: the march reads other values in compiled runs
-        # alone
-        self.look = self.pulled = 0
+        # look, pulled, pause and sloped stay 0, and all of x flows: the march reads other values in compiled
+        # runs alone
+        self.look = self.pulled = self.done = self.pause = 0
         self.nx, self.moving, self.p = len(x), len(x), 0
         self.accepted: dict[int, FoundEvent] = {}
         self.event: FoundEvent | None = None

@@ -92,6 +92,19 @@ def test_functions_of_the_C_library_are_called_lane_by_lane(biped, gait):
     assert all(map(same, (one() for one in ready), beside(ready, 4)))
 
 
+@pytest.mark.parametrize("push", [None, ba.TorquePulse((20.0, -10.0, 0.0, 0.0, 0.0), 1, 0.1, 0.2)])
+def test_steps_in_continuous_time_are_those_of_walks_alone(biped, gait, push):
+    """RK4 under NPD, with starts of their own; two do not complete."""
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
+    one = ba.Case(walker, gait=gait, method=ba.RK4(1e-3), impacts=2)
+    factors = (1.0, 1.01, 1.02, 0.98, 0.99, 3.0, 0.2)
+    ready = [Preparation()(replace(one, v=factor * one.v)) for factor in factors]
+    alone = [run() for run in ready]
+    assert {walk.status for walk in alone} >= {ba.Status.COMPLETED, ba.Status.RAN_AWAY}
+    for width in (1, 2, 4):
+        assert all(map(same, alone, beside(ready, width)))
+
+
 def test_most_samples_are_made_side_by_side():
     """Of a walk of some 400 samples no more than a tenth is walked by itself."""
     ready = [Preparation()(case) for case in cases(SETTINGS["pushes"], 4)][:3]
@@ -122,7 +135,7 @@ def test_a_batch_of_all_kinds_is_that_of_walks_alone(biped, gait):
 
 
 def test_a_return_map_of_many_starts_is_that_of_each():
-    """One single support from each of 21 states; of a walker in continuous time they are made one by one."""
+    """One single support from each of 21 states, in sampled and in continuous time."""
     case = next(cases(SAMPLED, curve=False))
     for walker in (case.walker, replace(case.walker, timing=ba.ContinuousTime())):
         x = walker.initial_state(case.q, case.v, case.mode)

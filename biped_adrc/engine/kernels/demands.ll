@@ -1,16 +1,16 @@
-; sources 0bdb22d93954207331154cb23a906111, text 0f3c2c2d0bcbf01592fb38de8d01a105
+; sources 5e15f947c244e87b6ea34739eda646f2, text 205fa0802ac65115998e935cb777fcc0
 
 
-@_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v120B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels5loadsB4v121B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v88B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v87B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v60B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6totalsB4v122B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6totalsB4v123B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a = weak local_unnamed_addr global ptr null
 
 
-define i32 @_ZN18biped_adrc_kernels7demandsB4v120B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.first, i64 %arg.supports, i64 %arg.impacts, ptr readonly %arg.known, ptr %arg.out) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.first, i64 %arg.supports, i64 %arg.impacts, ptr readonly %arg.known, ptr %arg.out) local_unnamed_addr #0 {
 B0.endif:
   %.674 = alloca ptr, align 8
   store ptr null, ptr %.674, align 8
@@ -110,7 +110,7 @@ B826:
   store double 0.000000e+00, ptr %.660, align 8
   %.668 = getelementptr double, ptr %1, i64 %.521203205
   store ptr null, ptr %.674, align 8
-  %.678 = call i32 @_ZN18biped_adrc_kernels5loadsB4v121B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.674, ptr nonnull %excinfo.2, ptr nonnull %.564, ptr %arg.at, i64 %arg.p, ptr %.154, ptr %.668, i64 %.31)
+  %.678 = call i32 @_ZN18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.674, ptr nonnull %excinfo.2, ptr nonnull %.564, ptr %arg.at, i64 %arg.p, ptr %.154, ptr %.668, i64 %.31)
   %cond = icmp eq i32 %.678, 0
   br i1 %cond, label %B826.endif, label %common.ret, !prof !0
 
@@ -316,7 +316,7 @@ entry:
   %.11 = alloca ptr, align 8
   store ptr null, ptr %.11, align 8
   %excinfo = alloca ptr, align 8
-  %.15 = call i32 @_ZN18biped_adrc_kernels7demandsB4v120B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a(ptr nonnull %.11, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3, i64 %.4, ptr %.5, i64 %.6, i64 %.7, ptr %.8, ptr %.9) #0
+  %.15 = call i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a(ptr nonnull %.11, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3, i64 %.4, ptr %.5, i64 %.6, i64 %.7, ptr %.8, ptr %.9) #0
   %cond = icmp eq i32 %.15, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !0
 
@@ -408,7 +408,7 @@ define void @PyErr_SetNone(ptr readnone %0) local_unnamed_addr #2 {
 }
 
 
-define linkonce_odr i32 @_ZN18biped_adrc_kernels5loadsB4v121B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.row, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.joints, ptr initializes((0, 8)) %arg.out, i64 %arg.count) local_unnamed_addr #0 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.row, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.joints, ptr initializes((0, 8)) %arg.out, i64 %arg.count) local_unnamed_addr #0 {
 B0.endif.endif:
   store double 0.000000e+00, ptr %arg.out, align 8
   %.144.1 = getelementptr double, ptr %arg.out, i64 %arg.count
@@ -589,7 +589,7 @@ B606.us.2:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels6totalsB4v122B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, i64 %arg.count, ptr %arg.out) local_unnamed_addr #3 {
+define i32 @_ZN18biped_adrc_kernels6totalsB4v123B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, i64 %arg.count, ptr %arg.out) local_unnamed_addr #3 {
 B0.endif:
   %.105164.not = icmp slt i64 %arg.count, 1
   br i1 %.105164.not, label %B820, label %B38.endif.lr.ph
@@ -1158,7 +1158,7 @@ define ptr @totals(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, i64 %.5
 entry:
   %.8 = alloca ptr, align 8
   store ptr null, ptr %.8, align 8
-  %.12 = call i32 @_ZN18biped_adrc_kernels6totalsB4v122B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr nonnull %.8, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, i64 %.4, i64 %.5, ptr %.6) #0
+  %.12 = call i32 @_ZN18biped_adrc_kernels6totalsB4v123B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr nonnull %.8, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, i64 %.4, i64 %.5, ptr %.6) #0
   %.22 = load ptr, ptr %.8, align 8
   ret ptr %.22
 }

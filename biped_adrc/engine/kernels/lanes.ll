@@ -1,4 +1,4 @@
-; sources 8fa2e11411c7e4609e475c1c60e9c9ab, text 928bc1b1e80124d40abff4d5ac0f4dbe
+; sources d9810375f12901c1700f5817d333e942, text 5a4ccf3ce729116cba6930745caa222b
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -62,7 +62,6 @@
 @_ZN08NumbaEnv18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4landB3v76B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax = weak local_unnamed_addr global ptr null
@@ -72,7 +71,6 @@
 @_ZN08NumbaEnv18biped_adrc_kernels4lookB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v17B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7disturbB2v6B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4pushB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
@@ -80,50 +78,53 @@
 @_ZN08NumbaEnv18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels8is_plainB3v85B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v17B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7is_tickB3v15B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9next_tickB3v75B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v52B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v12B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels3aimB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels3aimB4v107B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6flightB4v110B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels10sample_allB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6flightB4v111B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v112B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10sample_allB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v87B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v88B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels12side_by_sideB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB4v115B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7samplesB4v118B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels12side_by_sideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB4v116B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7samplesB4v119B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB4v119B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB4v120B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v65B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEb = weak local_unnamed_addr global ptr null
 
 define i32 @_ZN18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r) local_unnamed_addr {
@@ -146,7 +147,7 @@ B70.lr.ph:
 
 B70.lr.ph.new:
   %unroll_iter = and i64 %..10, 9223372036854775800
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 624
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 648
   br label %B70
 
 B70:
@@ -300,7 +301,7 @@ B94.endif.loopexit.unr-lcssa:
 
 B70.epil.preheader:
   %.1098284.epil.init = phi i64 [ 0, %B70.lr.ph ], [ %unroll_iter, %B94.endif.loopexit.unr-lcssa ]
-  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 624
+  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 648
   br label %B70.epil
 
 B70.epil:
@@ -326,8 +327,8 @@ B136.lr.ph:
   %.279 = getelementptr i8, ptr %arg.r, i64 320
   %.280.pre = load i64, ptr %.279, align 8
   %xtraiter.i = and i64 %.10, 7
-  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 608
-  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 632
+  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 632
+  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 656
   br i1 %.59, label %B136.us.preheader, label %B136.lr.ph.split
 
 B136.us.preheader:
@@ -366,7 +367,7 @@ B136.lr.ph.split:
 B136.preheader:
   %7 = inttoptr i64 %.13 to ptr
   %8 = icmp eq i64 %xtraiter.i, 0
-  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 624
+  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 648
   %9 = sub nsw i64 %.9.fr, %xtraiter.i
   %10 = shl nuw nsw i64 %xtraiter.i, 3
   br label %B136
@@ -377,7 +378,7 @@ B136.lr.ph.split.split.us:
   br i1 %11, label %B136.us2.us, label %B136.us2.preheader
 
 B136.us2.preheader:
-  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 624
+  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 648
   br label %B136.us2
 
 B136.us2.us:
@@ -530,7 +531,7 @@ B0:
   %excinfo.5 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 80
   %.18 = load i64, ptr %.17, align 8
-  %.20 = getelementptr i8, ptr %arg.r, i64 608
+  %.20 = getelementptr i8, ptr %arg.r, i64 632
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
   %.24 = getelementptr i8, ptr %arg.r, i64 96
@@ -567,7 +568,7 @@ common.ret:
   ret i32 %common.ret.op
 
 B258.endif:
-  %.115 = getelementptr i8, ptr %arg.r, i64 488
+  %.115 = getelementptr i8, ptr %arg.r, i64 512
   %.117 = load double, ptr %.115, align 8
   %.12.i = fcmp olt double %.117, %arg.t
   %.13.i = select i1 %.12.i, double %.117, double %arg.t
@@ -596,7 +597,7 @@ B58.i:
   br label %B258.endif.endif
 
 B258.endif.endif:
-  %.176 = getelementptr i8, ptr %arg.r, i64 624
+  %.176 = getelementptr i8, ptr %arg.r, i64 648
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
   %0 = getelementptr double, ptr %.22, i64 %.18
@@ -624,7 +625,7 @@ B258.endif.endif.endif:
 B16.i:
   %.17.i = fcmp oeq double %.227, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i, i64 5, i64 8
-  %.30.i = getelementptr i8, ptr %arg.r, i64 472
+  %.30.i = getelementptr i8, ptr %arg.r, i64 496
   store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !15
   store double 0x7FF8000000000000, ptr %arg.dx, align 8, !noalias !15
   br label %common.ret
@@ -833,7 +834,7 @@ B0:
   %excinfo.4 = alloca ptr, align 8
   %.188 = alloca ptr, align 8
   %excinfo.5 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 608
+  %.17 = getelementptr i8, ptr %arg.r, i64 632
   %.18 = load i64, ptr %.17, align 8
   %.24 = getelementptr i8, ptr %arg.r, i64 200
   %.25 = load i64, ptr %.24, align 8
@@ -847,7 +848,7 @@ B40:
   %.32 = getelementptr i8, ptr %arg.r, i64 272
   %.33 = load i64, ptr %.32, align 8
   %.34 = inttoptr i64 %.33 to ptr
-  %.36 = getelementptr i8, ptr %arg.r, i64 616
+  %.36 = getelementptr i8, ptr %arg.r, i64 640
   %.37 = load i64, ptr %.36, align 8
   %.38 = inttoptr i64 %.37 to ptr
   %.40 = inttoptr i64 %.30 to ptr
@@ -871,7 +872,7 @@ common.ret:
   ret i32 %common.ret.op
 
 B194.endif:
-  %.82 = getelementptr i8, ptr %arg.r, i64 488
+  %.82 = getelementptr i8, ptr %arg.r, i64 512
   %.84 = load double, ptr %.82, align 8
   %.12.i = fcmp olt double %.84, %arg.t
   %.13.i = select i1 %.12.i, double %.84, double %arg.t
@@ -910,7 +911,7 @@ B194.endif.endif:
   ], !prof !8
 
 B194.endif.endif.endif:
-  %.176 = getelementptr i8, ptr %arg.r, i64 624
+  %.176 = getelementptr i8, ptr %arg.r, i64 648
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
   %.181 = load i64, ptr %.145, align 8
@@ -942,7 +943,7 @@ B194.endif.endif.endif.endif:
 B16.i:
   %.17.i = fcmp oeq double %.231, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i, i64 5, i64 8
-  %.30.i = getelementptr i8, ptr %arg.r, i64 472
+  %.30.i = getelementptr i8, ptr %arg.r, i64 496
   store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !31
   store double 0x7FF8000000000000, ptr %arg.N, align 8, !noalias !31
   br label %common.ret
@@ -973,9 +974,9 @@ B0:
   %excinfo.1 = alloca ptr, align 8
   %.8 = getelementptr i8, ptr %arg.r, i64 360
   %.10 = load double, ptr %.8, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 480
+  %.11 = getelementptr i8, ptr %arg.r, i64 504
   %.13 = load double, ptr %.11, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 608
+  %.14 = getelementptr i8, ptr %arg.r, i64 632
   %.15 = load i64, ptr %.14, align 8
   %.16 = inttoptr i64 %.15 to ptr
   store double %arg.t, ptr %.16, align 8
@@ -1047,12 +1048,12 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 80
   %.18 = load i64, ptr %.17, align 8
-  %.20 = getelementptr i8, ptr %arg.r, i64 600
+  %.20 = getelementptr i8, ptr %arg.r, i64 624
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
   %.24 = getelementptr i8, ptr %arg.r, i64 408
   %.25 = load i64, ptr %.24, align 8
-  %.27 = getelementptr i8, ptr %arg.r, i64 432
+  %.27 = getelementptr i8, ptr %arg.r, i64 456
   %.28 = load i64, ptr %.27, align 8
   %.29 = mul nsw i64 %.28, %.25
   %.30 = getelementptr double, ptr %.22, i64 %.29
@@ -1071,7 +1072,7 @@ B118:
   ], !prof !8
 
 B250:
-  %.123 = getelementptr i8, ptr %arg.r, i64 608
+  %.123 = getelementptr i8, ptr %arg.r, i64 632
   %.124 = load i64, ptr %.123, align 8
   %.125 = inttoptr i64 %.124 to ptr
   %.126 = getelementptr i8, ptr %.125, i64 24
@@ -1103,7 +1104,7 @@ B250.endif:
   br i1 %.160.not, label %B414.endif, label %B344.endif
 
 B344.endif:
-  %.164 = getelementptr i8, ptr %arg.r, i64 488
+  %.164 = getelementptr i8, ptr %arg.r, i64 512
   %.166 = load double, ptr %.164, align 8
   %.12.i = fcmp olt double %.166, %arg.t
   %.13.i = select i1 %.12.i, double %.166, double %arg.t
@@ -1148,7 +1149,7 @@ B414.endif:
   %.25.i = getelementptr i8, ptr %.24.i, i64 16
   store double %.11.i, ptr %.25.i, align 8, !noalias !40
   %.254 = load double, ptr %.6.i, align 8
-  %.256 = getelementptr i8, ptr %arg.r, i64 624
+  %.256 = getelementptr i8, ptr %arg.r, i64 648
   %.257 = load i64, ptr %.256, align 8
   %.258 = inttoptr i64 %.257 to ptr
   %.260 = getelementptr i8, ptr %arg.r, i64 72
@@ -1177,7 +1178,7 @@ B414.endif:
 B652.endif:
   %.303 = load i64, ptr %.24, align 8
   %.304 = add nsw i64 %.303, 1
-  %.306 = getelementptr i8, ptr %arg.r, i64 424
+  %.306 = getelementptr i8, ptr %arg.r, i64 448
   %.307 = load i64, ptr %.306, align 8
   %.308 = add nsw i64 %.307, -1
   %.13.i3 = tail call i64 @llvm.smin.i64(i64 %.308, i64 %.304)
@@ -1222,11 +1223,11 @@ B0:
   %.9 = load i64, ptr %.8, align 8
   %.11 = getelementptr i8, ptr %arg.r, i64 80
   %.12 = load i64, ptr %.11, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 664
+  %.14 = getelementptr i8, ptr %arg.r, i64 688
   %.15 = load i64, ptr %.14, align 8
-  %.18 = getelementptr i8, ptr %arg.r, i64 616
+  %.18 = getelementptr i8, ptr %arg.r, i64 640
   %.19 = load i64, ptr %.18, align 8
-  %.22 = getelementptr i8, ptr %arg.r, i64 672
+  %.22 = getelementptr i8, ptr %arg.r, i64 696
   %.23 = load i64, ptr %.22, align 8
   %.51 = getelementptr i8, ptr %arg.r, i64 216
   %.53 = load double, ptr %.51, align 8
@@ -1253,7 +1254,7 @@ B668:
   %.516 = icmp sgt i64 %.12, %.373
   %or.cond = select i1 %.509, i1 %.516, i1 false
   %"$phi722.0.2.0" = zext i1 %or.cond to i64
-  %.533 = getelementptr i8, ptr %arg.r, i64 440
+  %.533 = getelementptr i8, ptr %arg.r, i64 464
   store i64 %"$phi722.0.2.0", ptr %.533, align 8
   br label %B734
 
@@ -1431,7 +1432,7 @@ B186.endif:
   %.161 = getelementptr i8, ptr %arg.r, i64 272
   %.162 = load i64, ptr %.161, align 8
   %.163 = inttoptr i64 %.162 to ptr
-  %.165 = getelementptr i8, ptr %arg.r, i64 608
+  %.165 = getelementptr i8, ptr %arg.r, i64 632
   %.166 = load i64, ptr %.165, align 8
   %.167 = inttoptr i64 %.166 to ptr
   %.169 = inttoptr i64 %.159 to ptr
@@ -1444,7 +1445,7 @@ B186.endif:
 B16.i:
   %.17.i21 = fcmp oeq double %.175, 0.000000e+00
   %"$phi54.0.2.0.i" = select i1 %.17.i21, i64 5, i64 8
-  %.30.i = getelementptr i8, ptr %arg.r, i64 472
+  %.30.i = getelementptr i8, ptr %arg.r, i64 496
   store i64 %"$phi54.0.2.0.i", ptr %.30.i, align 8, !noalias !47
   store double 0x7FF8000000000000, ptr %22, align 8, !noalias !47
   br label %B186.endif.endif
@@ -1566,7 +1567,7 @@ _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2f
   br i1 %.136.lcssa.i, label %B422, label %B392.endif
 
 B392.endif:
-  %.8.i1 = getelementptr i8, ptr %arg.r, i64 472
+  %.8.i1 = getelementptr i8, ptr %arg.r, i64 496
   %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !56
   %.10.i3 = icmp eq i64 %.9.i2, 0
   %spec.select.i = select i1 %.10.i3, i64 4, i64 %.9.i2
@@ -1655,7 +1656,7 @@ B0:
   %excinfo.1 = alloca ptr, align 8
   %.112 = alloca ptr, align 8
   %excinfo.4 = alloca ptr, align 8
-  %.7 = getelementptr i8, ptr %arg.r, i64 608
+  %.7 = getelementptr i8, ptr %arg.r, i64 632
   %.8 = load i64, ptr %.7, align 8
   %.9 = inttoptr i64 %.8 to ptr
   %.10 = getelementptr i8, ptr %.9, i64 24
@@ -1676,7 +1677,7 @@ common.ret:
 B0.endif.endif:
   %.40 = getelementptr i8, ptr %arg.r, i64 344
   %.42 = load double, ptr %.40, align 8
-  %.43 = getelementptr i8, ptr %arg.r, i64 488
+  %.43 = getelementptr i8, ptr %arg.r, i64 512
   %.45 = load double, ptr %.43, align 8
   %.12.i = fcmp olt double %.45, %.42
   %.13.i = select i1 %.12.i, double %.45, double %.42
@@ -1705,7 +1706,7 @@ B58.i:
   br label %B0.endif.endif.endif
 
 B0.endif.endif.endif:
-  %.99 = getelementptr i8, ptr %arg.r, i64 624
+  %.99 = getelementptr i8, ptr %arg.r, i64 648
   %.100 = load i64, ptr %.99, align 8
   %.101 = inttoptr i64 %.100 to ptr
   %.103 = load i64, ptr %.7, align 8
@@ -1765,7 +1766,7 @@ B0:
   %.13 = getelementptr i8, ptr %arg.r, i64 256
   %.15 = load double, ptr %.13, align 8
   %.17 = fmul double %arg.h, %.15
-  %.22 = getelementptr i8, ptr %arg.r, i64 696
+  %.22 = getelementptr i8, ptr %arg.r, i64 720
   %.23 = load i64, ptr %.22, align 8
   %.24 = inttoptr i64 %.23 to ptr
   %.25 = getelementptr i8, ptr %arg.r, i64 80
@@ -2255,7 +2256,7 @@ B0:
   %.26 = getelementptr i8, ptr %arg.r, i64 80
   %.27 = load i64, ptr %.26, align 8
   %.31 = sub nsw i64 %.27, %.24
-  %.33 = getelementptr i8, ptr %arg.r, i64 696
+  %.33 = getelementptr i8, ptr %arg.r, i64 720
   %.34 = load i64, ptr %.33, align 8
   %.67 = icmp sgt i64 %.31, 0
   br i1 %.67, label %B92, label %B244
@@ -2311,7 +2312,7 @@ B450:
 
 B486:
   %.285 = fadd double %arg.t, %.218
-  %.287 = getelementptr i8, ptr %arg.r, i64 712
+  %.287 = getelementptr i8, ptr %arg.r, i64 736
   %.288 = load i64, ptr %.287, align 8
   %.289 = inttoptr i64 %.288 to ptr
   %.292 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %1, ptr %.289)
@@ -2331,7 +2332,7 @@ B620:
   ], !prof !8
 
 B656:
-  %.371 = getelementptr i8, ptr %arg.r, i64 720
+  %.371 = getelementptr i8, ptr %arg.r, i64 744
   %.372 = load i64, ptr %.371, align 8
   %.373 = inttoptr i64 %.372 to ptr
   %.376 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %1, ptr %.373)
@@ -2352,7 +2353,7 @@ B784:
 
 B820:
   %.451 = fadd double %arg.t, %arg.h
-  %.455 = getelementptr i8, ptr %arg.r, i64 728
+  %.455 = getelementptr i8, ptr %arg.r, i64 752
   %.456 = load i64, ptr %.455, align 8
   %.457 = inttoptr i64 %.456 to ptr
   %.460 = tail call ptr @flow(ptr nonnull %arg.r, double %.451, ptr %1, ptr %.457)
@@ -2384,7 +2385,7 @@ B266.endif:
   %.168.fca.2.load = load double, ptr %sunkaddr1, align 8
   %sunkaddr2 = getelementptr inbounds nuw i8, ptr %.154, i64 8
   %.168.fca.1.load = load double, ptr %sunkaddr2, align 8
-  %.201 = getelementptr i8, ptr %arg.r, i64 704
+  %.201 = getelementptr i8, ptr %arg.r, i64 728
   %.202 = load i64, ptr %.201, align 8
   %.203 = inttoptr i64 %.202 to ptr
   %.208 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %arg.x, double %arg.h, ptr %.203)
@@ -3028,14 +3029,14 @@ B0.endif.endif.endif.endif:
   %.11.i14 = add nsw i64 %.10.i, 4
   %.17.i18 = mul i64 %.14.i, %.11.i14
   %.18.i19 = getelementptr double, ptr %.9.i, i64 %.17.i18
-  %.88 = getelementptr i8, ptr %arg.r, i64 784
+  %.88 = getelementptr i8, ptr %arg.r, i64 808
   %.89 = load i64, ptr %.88, align 8
   %.90 = inttoptr i64 %.89 to ptr
-  %.91 = getelementptr i8, ptr %arg.r, i64 792
+  %.91 = getelementptr i8, ptr %arg.r, i64 816
   %.92 = load i64, ptr %.91, align 8
   %.94 = getelementptr i8, ptr %arg.r, i64 104
   %.95 = load i64, ptr %.94, align 8
-  %.105 = getelementptr i8, ptr %arg.r, i64 800
+  %.105 = getelementptr i8, ptr %arg.r, i64 824
   %.106 = load i64, ptr %.105, align 8
   %.107 = inttoptr i64 %.106 to ptr
   %.8.i20 = getelementptr i8, ptr %arg.r, i64 56
@@ -3088,7 +3089,7 @@ B0.endif.endif.endif.endif.endif.endif.endif:
 
 B0.endif.endif.endif.endif.endif.endif.endif.endif:
   %.244 = fadd double %arg.t, %.193
-  %.245 = getelementptr i8, ptr %arg.r, i64 840
+  %.245 = getelementptr i8, ptr %arg.r, i64 864
   %.246 = load i64, ptr %.245, align 8
   %.247 = inttoptr i64 %.246 to ptr
   %.248 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %.90, ptr %.247)
@@ -3110,7 +3111,7 @@ B0.endif.endif.endif.endif.endif.endif.endif.endif.endif:
   ], !prof !8
 
 B0.endif.endif.endif.endi...endif.1.endif:
-  %.308 = getelementptr i8, ptr %arg.r, i64 848
+  %.308 = getelementptr i8, ptr %arg.r, i64 872
   %.309 = load i64, ptr %.308, align 8
   %.310 = inttoptr i64 %.309 to ptr
   %.311 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %0, ptr %.310)
@@ -3146,7 +3147,7 @@ B0.endif.endif.endif.endi...endif.1.endif.endif.endif:
 
 B0.endif.endif.endif.endi...endif.2.endif.endif.endif:
   %.418 = fadd double %arg.t, %arg.h
-  %.419 = getelementptr i8, ptr %arg.r, i64 856
+  %.419 = getelementptr i8, ptr %arg.r, i64 880
   %.420 = load i64, ptr %.419, align 8
   %.421 = inttoptr i64 %.420 to ptr
   %.422 = tail call ptr @remainder(ptr nonnull %arg.r, double %.418, ptr %0, ptr %.421)
@@ -3473,16 +3474,16 @@ B0:
   %excinfo.5 = alloca ptr, align 8
   %.25 = getelementptr i8, ptr %arg.r, i64 128
   %.26 = load i64, ptr %.25, align 8
-  %.38 = getelementptr i8, ptr %arg.r, i64 808
+  %.38 = getelementptr i8, ptr %arg.r, i64 832
   %.39 = load i64, ptr %.38, align 8
   %.40 = inttoptr i64 %.39 to ptr
-  %.42 = getelementptr i8, ptr %arg.r, i64 864
+  %.42 = getelementptr i8, ptr %arg.r, i64 888
   %.43 = load i64, ptr %.42, align 8
-  %.46 = getelementptr i8, ptr %arg.r, i64 816
+  %.46 = getelementptr i8, ptr %arg.r, i64 840
   %.47 = load i64, ptr %.46, align 8
-  %.50 = getelementptr i8, ptr %arg.r, i64 752
+  %.50 = getelementptr i8, ptr %arg.r, i64 776
   %.51 = load i64, ptr %.50, align 8
-  %.91 = getelementptr i8, ptr %arg.r, i64 768
+  %.91 = getelementptr i8, ptr %arg.r, i64 792
   %.92 = load i64, ptr %.91, align 8
   %.93 = inttoptr i64 %.92 to ptr
   %.95 = getelementptr i8, ptr %arg.r, i64 80
@@ -3537,7 +3538,7 @@ B631:
 
 B0.endif:
   %0 = inttoptr i64 %.43 to ptr
-  %.126 = getelementptr i8, ptr %arg.r, i64 824
+  %.126 = getelementptr i8, ptr %arg.r, i64 848
   %.127 = load i64, ptr %.126, align 8
   %.128 = inttoptr i64 %.127 to ptr
   %.130 = getelementptr i8, ptr %arg.r, i64 120
@@ -3627,7 +3628,7 @@ B262.lr.ph:
   %3 = inttoptr i64 %.51 to ptr
   %sunkaddr15 = getelementptr i8, ptr %arg.r, i64 40
   %sunkaddr16 = getelementptr i8, ptr %arg.r, i64 272
-  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 656
+  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 680
   br label %B262
 
 B394.endif:
@@ -3668,15 +3669,15 @@ B630.endif:
   %.11.i5 = inttoptr i64 %.10.i4 to ptr
   %.12.i6 = inttoptr i64 %.8.i2 to ptr
   tail call void %.12.i6(ptr %.11.i5, ptr %.40, ptr %4), !noalias !106
-  %.572 = getelementptr i8, ptr %arg.r, i64 760
+  %.572 = getelementptr i8, ptr %arg.r, i64 784
   %.573 = load i64, ptr %.572, align 8
   %.574 = inttoptr i64 %.573 to ptr
   %.578 = tail call ptr @flow(ptr %arg.r, double %now.2.0.lcssa, ptr %4, ptr %.574)
-  %.583 = getelementptr i8, ptr %arg.r, i64 504
+  %.583 = getelementptr i8, ptr %arg.r, i64 528
   store double %now.2.0.lcssa, ptr %.583, align 8
-  %.590 = getelementptr i8, ptr %arg.r, i64 512
+  %.590 = getelementptr i8, ptr %arg.r, i64 536
   store double %tb.2.0.lcssa, ptr %.590, align 8
-  %.597 = getelementptr i8, ptr %arg.r, i64 520
+  %.597 = getelementptr i8, ptr %arg.r, i64 544
   store double %fb.2.0.lcssa, ptr %.597, align 8
   store ptr null, ptr %retptr, align 8
   br label %common.ret
@@ -3721,40 +3722,40 @@ B36:
   br i1 %.22.i, label %common.ret, label %B70.i
 
 B70.i:
-  %.35 = getelementptr i8, ptr %arg.r, i64 760
+  %.35 = getelementptr i8, ptr %arg.r, i64 784
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
-  %.31 = getelementptr i8, ptr %arg.r, i64 752
+  %.31 = getelementptr i8, ptr %arg.r, i64 776
   %.32 = load i64, ptr %.31, align 8
   %.33 = inttoptr i64 %.32 to ptr
-  %.27 = getelementptr i8, ptr %arg.r, i64 504
+  %.27 = getelementptr i8, ptr %arg.r, i64 528
   %.29 = load double, ptr %.27, align 8
   %.62.i = fsub double %arg.s, %.29
-  %.64.i = getelementptr i8, ptr %arg.r, i64 736
+  %.64.i = getelementptr i8, ptr %arg.r, i64 760
   %.65.i = load i64, ptr %.64.i, align 8, !noalias !109
   %.66.i = inttoptr i64 %.65.i to ptr
   %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %.29, ptr %.33, ptr %.37, double %.62.i, ptr %.66.i), !noalias !109
   br label %common.ret
 
 B70.i4:
-  %.78 = getelementptr i8, ptr %arg.r, i64 672
+  %.78 = getelementptr i8, ptr %arg.r, i64 696
   %.79 = load i64, ptr %.78, align 8
   %.80 = inttoptr i64 %.79 to ptr
-  %.74 = getelementptr i8, ptr %arg.r, i64 664
+  %.74 = getelementptr i8, ptr %arg.r, i64 688
   %.75 = load i64, ptr %.74, align 8
   %.76 = inttoptr i64 %.75 to ptr
   %.62.i5 = fsub double %arg.s, %arg.t0
-  %.64.i6 = getelementptr i8, ptr %arg.r, i64 736
+  %.64.i6 = getelementptr i8, ptr %arg.r, i64 760
   %.65.i7 = load i64, ptr %.64.i6, align 8, !noalias !112
   %.66.i8 = inttoptr i64 %.65.i7 to ptr
   %.71.i9 = tail call ptr @classical(ptr nonnull %arg.r, double %arg.t0, ptr %.76, ptr %.80, double %.62.i5, ptr %.66.i8), !noalias !112
   br label %common.ret
 
 common.ret:
-  %.80.i10 = getelementptr i8, ptr %arg.r, i64 736
+  %.80.i10 = getelementptr i8, ptr %arg.r, i64 760
   %.81.i11 = load i64, ptr %.80.i10, align 8, !noalias !115
   %.82.i12 = inttoptr i64 %.81.i11 to ptr
-  %.84.i13 = getelementptr i8, ptr %arg.r, i64 656
+  %.84.i13 = getelementptr i8, ptr %arg.r, i64 680
   %.85.i14 = load i64, ptr %.84.i13, align 8, !noalias !115
   %.86.i15 = inttoptr i64 %.85.i14 to ptr
   %.89.i16 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.s, ptr %.82.i12, ptr %.86.i15), !noalias !115
@@ -3775,20 +3776,20 @@ define i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yR
 B0:
   %.241 = alloca double, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.28 = getelementptr i8, ptr %arg.r, i64 640
+  %.28 = getelementptr i8, ptr %arg.r, i64 664
   %.29 = load i64, ptr %.28, align 8
   %.30 = inttoptr i64 %.29 to ptr
   %.32 = getelementptr double, ptr %.30, i64 %arg.guard
   %.33 = load double, ptr %.32, align 8
-  %.35 = getelementptr i8, ptr %arg.r, i64 648
+  %.35 = getelementptr i8, ptr %arg.r, i64 672
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
   %.39 = getelementptr double, ptr %.37, i64 %arg.guard
   %.40 = load double, ptr %.39, align 8
-  %.56 = getelementptr i8, ptr %arg.r, i64 664
+  %.56 = getelementptr i8, ptr %arg.r, i64 688
   %.57 = load i64, ptr %.56, align 8
   %.58 = inttoptr i64 %.57 to ptr
-  %.60 = getelementptr i8, ptr %arg.r, i64 672
+  %.60 = getelementptr i8, ptr %arg.r, i64 696
   %.61 = load i64, ptr %.60, align 8
   %.74 = getelementptr i8, ptr %arg.r, i64 144
   %.75 = load i64, ptr %.74, align 8
@@ -3797,22 +3798,22 @@ B0:
 
 B120:
   %.92 = tail call ptr @halve(ptr nonnull %arg.r, i64 %arg.guard, double %arg.t0, double %arg.ta, double %arg.tb, double %.40)
-  %.100 = getelementptr i8, ptr %arg.r, i64 504
+  %.100 = getelementptr i8, ptr %arg.r, i64 528
   %.102 = load double, ptr %.100, align 8
-  %.104 = getelementptr i8, ptr %arg.r, i64 512
+  %.104 = getelementptr i8, ptr %arg.r, i64 536
   %.106 = load double, ptr %.104, align 8
-  %.108 = getelementptr i8, ptr %arg.r, i64 520
+  %.108 = getelementptr i8, ptr %arg.r, i64 544
   %.110 = load double, ptr %.108, align 8
-  %.112 = getelementptr i8, ptr %arg.r, i64 752
+  %.112 = getelementptr i8, ptr %arg.r, i64 776
   %.113 = load i64, ptr %.112, align 8
   %.114 = inttoptr i64 %.113 to ptr
-  %.116 = getelementptr i8, ptr %arg.r, i64 760
+  %.116 = getelementptr i8, ptr %arg.r, i64 784
   %.117 = load i64, ptr %.116, align 8
   %.161 = fcmp ogt double %.102, %arg.ta
   br i1 %.161, label %B248, label %B324
 
 B248:
-  %.187 = getelementptr i8, ptr %arg.r, i64 656
+  %.187 = getelementptr i8, ptr %arg.r, i64 680
   %.188 = load i64, ptr %.187, align 8
   %.189 = inttoptr i64 %.188 to ptr
   %.193 = tail call ptr @watch(ptr nonnull %arg.r, double %.102, ptr %.114, ptr %.189)
@@ -3844,7 +3845,7 @@ B324.endif:
 
 B70.i:
   %.62.i = fsub double %.255, %base.2.0
-  %.64.i = getelementptr i8, ptr %arg.r, i64 736
+  %.64.i = getelementptr i8, ptr %arg.r, i64 760
   %.65.i = load i64, ptr %.64.i, align 8, !noalias !116
   %.66.i = inttoptr i64 %.65.i to ptr
   %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %base.2.0, ptr %x.2.0, ptr %dx.2.0, double %.62.i, ptr %.66.i), !noalias !116
@@ -3858,10 +3859,10 @@ B324.if.if:
   br label %common.ret
 
 B324.endif.endif:
-  %.80.i = getelementptr i8, ptr %arg.r, i64 736
+  %.80.i = getelementptr i8, ptr %arg.r, i64 760
   %.81.i = load i64, ptr %.80.i, align 8, !noalias !116
   %.82.i = inttoptr i64 %.81.i to ptr
-  %.84.i = getelementptr i8, ptr %arg.r, i64 656
+  %.84.i = getelementptr i8, ptr %arg.r, i64 680
   %.85.i = load i64, ptr %.84.i, align 8, !noalias !116
   %.86.i = inttoptr i64 %.85.i to ptr
   %.89.i = tail call ptr @watch(ptr nonnull %arg.r, double %.255, ptr %.82.i, ptr %.86.i), !noalias !116
@@ -3873,8 +3874,8 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels5brentB3v42B58c8tJTIeFIjxB2IKSgI
 B92.lr.ph:
   %.65 = fsub double %arg.tb, %arg.ta
   %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 144
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 736
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 656
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 760
+  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 680
   br label %B92
 
 B92:
@@ -4064,10 +4065,10 @@ B0:
   %.16 = fmul double %.15, 5.000000e-01
   %.18 = fadd double %arg.t0, %.16
   %.9.i = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull poison, ptr %arg.r, double %arg.t0, double %.18) #0
-  %.24 = getelementptr i8, ptr %arg.r, i64 656
+  %.24 = getelementptr i8, ptr %arg.r, i64 680
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
-  %.28 = getelementptr i8, ptr %arg.r, i64 648
+  %.28 = getelementptr i8, ptr %arg.r, i64 672
   %.29 = load i64, ptr %.28, align 8
   %.30 = inttoptr i64 %.29 to ptr
   %.32 = getelementptr i8, ptr %arg.r, i64 136
@@ -4129,7 +4130,7 @@ B502:
   %"$phi502.0.2.0" = phi i64 [ %.348, %B372.endif.endif ], [ %.382, %B468 ]
   %.409 = load i64, ptr %.28, align 8
   %.410 = inttoptr i64 %.409 to ptr
-  %.412 = getelementptr i8, ptr %arg.r, i64 640
+  %.412 = getelementptr i8, ptr %arg.r, i64 664
   %.413 = load i64, ptr %.412, align 8
   %.414 = inttoptr i64 %.413 to ptr
   %.417 = load i64, ptr %.32, align 8
@@ -4159,7 +4160,7 @@ B0.endif.endif.B372_crit_edge:
   br label %B372
 
 B196.lr.ph:
-  %.198 = getelementptr i8, ptr %arg.r, i64 640
+  %.198 = getelementptr i8, ptr %arg.r, i64 664
   %.190 = inttoptr i64 %.298.pre to ptr
   %.199 = load i64, ptr %.198, align 8
   %.200 = inttoptr i64 %.199 to ptr
@@ -4233,11 +4234,11 @@ B0.endif:
   br i1 %.109138.not, label %common.ret, label %B78.preheader
 
 B78.preheader:
-  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 640
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 648
-  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 736
+  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 760
   %sunkaddr69 = getelementptr i8, ptr %arg.r, i64 80
-  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 656
+  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 680
   %sunkaddr71 = getelementptr i8, ptr %arg.r, i64 240
   br label %B78
 
@@ -4440,12 +4441,12 @@ B407.thread:
   br i1 %exitcond.not8, label %.thread, label %B78.backedge
 
 .thread:
-  %.48527 = getelementptr i8, ptr %arg.r, i64 496
+  %.48527 = getelementptr i8, ptr %arg.r, i64 520
   store double %.223, ptr %.48527, align 8
   br label %30
 
 B250.endif:
-  %.8.i = getelementptr i8, ptr %arg.r, i64 472
+  %.8.i = getelementptr i8, ptr %arg.r, i64 496
   %.9.i = load i64, ptr %.8.i, align 8, !noalias !136
   %.10.i = icmp eq i64 %.9.i, 0
   %spec.select.i = select i1 %.10.i, i64 4, i64 %.9.i
@@ -4453,7 +4454,7 @@ B250.endif:
 
 B406.endif:
   %first.6.0 = phi double [ %.467, %B368 ], [ %first.4.1, %B356 ]
-  %.485 = getelementptr i8, ptr %arg.r, i64 496
+  %.485 = getelementptr i8, ptr %arg.r, i64 520
   store double %first.6.0, ptr %.485, align 8
   %switch.selectcmp.i = icmp eq i64 %first_guard.3.1.fr, 1
   %29 = select i1 %switch.selectcmp.i, i64 2, i64 3
@@ -4468,10 +4469,10 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels7overdueB3v45B58c8tJTIeFIjxB2IKS
 B0:
   %.22 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.12 = getelementptr i8, ptr %arg.r, i64 664
+  %.12 = getelementptr i8, ptr %arg.r, i64 688
   %.13 = load i64, ptr %.12, align 8
   %.14 = inttoptr i64 %.13 to ptr
-  %.16 = getelementptr i8, ptr %arg.r, i64 736
+  %.16 = getelementptr i8, ptr %arg.r, i64 760
   %.17 = load i64, ptr %.16, align 8
   %.18 = inttoptr i64 %.17 to ptr
   %.20 = getelementptr i8, ptr %arg.r, i64 80
@@ -4525,7 +4526,7 @@ B0.if.if:
 B0.endif.endif:
   %.50 = load i64, ptr %.16, align 8
   %.51 = inttoptr i64 %.50 to ptr
-  %.53 = getelementptr i8, ptr %arg.r, i64 656
+  %.53 = getelementptr i8, ptr %arg.r, i64 680
   %.54 = load i64, ptr %.53, align 8
   %.55 = inttoptr i64 %.54 to ptr
   %.58 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t0, ptr %.51, ptr %.55)
@@ -4541,11 +4542,11 @@ B166.lr.ph:
   br i1 %.204.not.peel, label %B420.peel, label %B244.peel
 
 B244.peel:
-  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 664
   %.184.peel = load i64, ptr %sunkaddr23, align 8
   %.185.peel = inttoptr i64 %.184.peel to ptr
   %.188.peel = load double, ptr %.185.peel, align 8
-  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 672
   %.191.peel = load i64, ptr %sunkaddr24, align 8
   %.192.peel = inttoptr i64 %.191.peel to ptr
   %.195.peel = load double, ptr %.192.peel, align 8
@@ -4570,8 +4571,8 @@ B420.peel:
 
 B166.preheader:
   %2 = add i64 %.202, -1
-  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 640
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 672
   br label %B166
 
 B370.endif.loopexit:
@@ -4581,7 +4582,7 @@ B370.endif.loopexit:
 
 B370.endif:
   %.9.not.i.lcssa = phi i64 [ %4, %B370.endif.loopexit ], [ 9, %_ZN18biped_adrc_kernels7acceptsB3v44B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2axd.exit.peel ]
-  %.330 = getelementptr i8, ptr %arg.r, i64 496
+  %.330 = getelementptr i8, ptr %arg.r, i64 520
   store double %arg.t0, ptr %.330, align 8
   store i64 %.9.not.i.lcssa, ptr %retptr, align 8
   br label %common.ret
@@ -4653,7 +4654,7 @@ B50.lr.ph.new.i:
 B50.lr.ph.new.i.new:
   %4 = add nuw nsw i64 %2, 1
   %unroll_iter = and i64 %4, 4611686018427387902
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 664
   br label %B50.i
 
 B50.i:
@@ -4780,7 +4781,7 @@ B92.loopexit.unr-lcssa.i.unr-lcssa:
 
 B56.i.epil:
   %.1004244.i.epil.init3 = phi i64 [ %.107.73.i.1, %B92.loopexit.unr-lcssa.i.unr-lcssa ], [ 0, %B50.lr.ph.new.i ]
-  %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 664
   %.145.i.epil = load i64, ptr %sunkaddr91, align 8, !noalias !143
   %.146.i.epil = inttoptr i64 %.145.i.epil to ptr
   %7 = shl i64 %.1004244.i.epil.init3, 3
@@ -4839,7 +4840,7 @@ B92.loopexit.unr-lcssa.i:
 B50.epil.preheader.i:
   %low.2.046.epil.init.i = phi i1 [ false, %B50.lr.ph.i ], [ %"$phi88.1.2.1.7.i.lcssa", %B92.loopexit.unr-lcssa.i ]
   %.1004244.epil.init.i = phi i64 [ 0, %B50.lr.ph.i ], [ %unroll_iter.i, %B92.loopexit.unr-lcssa.i ]
-  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 664
   br label %B50.epil.i
 
 B50.epil.i:
@@ -4878,10 +4879,10 @@ B186:
 
 B190:
   %before.4.0 = phi double [ %.13.i9, %B92.endif ], [ %arg.t0, %B0.endif ], [ %arg.t0, %B62 ], [ %arg.t0, %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
-  %.163 = getelementptr i8, ptr %arg.r, i64 680
+  %.163 = getelementptr i8, ptr %arg.r, i64 704
   %.164 = load i64, ptr %.163, align 8
   %.165 = inttoptr i64 %.164 to ptr
-  %.167 = getelementptr i8, ptr %arg.r, i64 648
+  %.167 = getelementptr i8, ptr %arg.r, i64 672
   %.168 = load i64, ptr %.167, align 8
   %.169 = inttoptr i64 %.168 to ptr
   %.172 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t1, ptr %.165, ptr %.169)
@@ -4902,7 +4903,7 @@ B258:
 B294:
   %.226 = load i64, ptr %.167, align 8
   %.227 = inttoptr i64 %.226 to ptr
-  %.229 = getelementptr i8, ptr %arg.r, i64 640
+  %.229 = getelementptr i8, ptr %arg.r, i64 664
   %.230 = load i64, ptr %.229, align 8
   %.231 = inttoptr i64 %.230 to ptr
   %.233 = getelementptr i8, ptr %arg.r, i64 136
@@ -4997,9 +4998,9 @@ B294.if.if:
 
 B362.endif:
   %.407 = uitofp nneg i64 %.13.i.i to double
-  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 656
+  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 680
   %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 136
-  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 664
   br label %B400
 
 B460.if.if:
@@ -5042,7 +5043,7 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels7suspectB3v54B58c8tJTIeFIjxB2IKS
 B0.endif:
   %.201 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 640
+  %.17 = getelementptr i8, ptr %arg.r, i64 664
   %.18 = load i64, ptr %.17, align 8
   %.19 = inttoptr i64 %.18 to ptr
   %.21 = load double, ptr %.19, align 8
@@ -5053,9 +5054,9 @@ B0.endif:
   %.arg.count = tail call i64 @llvm.smax.i64(i64 %arg.count, i64 0)
   %.187 = fsub double %arg.t1, %arg.t0
   %.191 = sitofp i64 %arg.count to double
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 648
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 656
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 696
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 720
   br label %B120
 
 B120:
@@ -5154,8 +5155,8 @@ B46.lr.ph:
 
 B46.lr.ph.new:
   %1 = and i64 %.18, 9223372036854775804
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 680
-  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 704
+  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 688
   br label %B46
 
 B46:
@@ -5293,8 +5294,8 @@ B300.loopexit.unr-lcssa:
 
 B46.epil.preheader:
   %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %1, %B300.loopexit.unr-lcssa ]
-  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 680
-  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 704
+  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 688
   br label %B46.epil
 
 B46.epil:
@@ -5362,7 +5363,7 @@ define i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRY
 B0:
   %.224 = alloca i8, align 1
   %excinfo.4 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 680
+  %.17 = getelementptr i8, ptr %arg.r, i64 704
   %.18 = load i64, ptr %.17, align 8
   %.24 = getelementptr i8, ptr %arg.r, i64 144
   %.25 = load i64, ptr %.24, align 8
@@ -5381,13 +5382,13 @@ B118:
 
 B204:
   %0 = inttoptr i64 %.18 to ptr
-  %.66 = getelementptr i8, ptr %arg.r, i64 768
+  %.66 = getelementptr i8, ptr %arg.r, i64 792
   %.67 = load i64, ptr %.66, align 8
   %.68 = inttoptr i64 %.67 to ptr
-  %.70 = getelementptr i8, ptr %arg.r, i64 824
+  %.70 = getelementptr i8, ptr %arg.r, i64 848
   %.71 = load i64, ptr %.70, align 8
   %.72 = inttoptr i64 %.71 to ptr
-  %.74 = getelementptr i8, ptr %arg.r, i64 776
+  %.74 = getelementptr i8, ptr %arg.r, i64 800
   %.75 = load i64, ptr %.74, align 8
   %.76 = inttoptr i64 %.75 to ptr
   %.79 = tail call ptr @exponential(ptr nonnull %arg.r, i64 0, double %arg.t, double %.48, ptr %.68, ptr %.72, ptr %.76)
@@ -5404,13 +5405,13 @@ B204:
 
 B328:
   %.120 = tail call ptr @halve(ptr nonnull %arg.r, i64 -1, double %arg.t, double %arg.t1, double %arg.t1, double 0.000000e+00)
-  %.124 = getelementptr i8, ptr %arg.r, i64 504
+  %.124 = getelementptr i8, ptr %arg.r, i64 528
   %.126 = load double, ptr %.124, align 8
   br label %B454.sink.split
 
 B454.sink.split:
-  %.sink29 = phi i64 [ 752, %B328 ], [ 664, %B0 ]
-  %.sink = phi i64 [ 760, %B328 ], [ 672, %B0 ]
+  %.sink29 = phi i64 [ 776, %B328 ], [ 688, %B0 ]
+  %.sink = phi i64 [ 784, %B328 ], [ 696, %B0 ]
   %.126.sink28 = phi double [ %.126, %B328 ], [ %arg.t, %B0 ]
   %1 = inttoptr i64 %.18 to ptr
   %.128 = getelementptr i8, ptr %arg.r, i64 %.sink29
@@ -5569,10 +5570,10 @@ B574:
   br i1 %or.cond, label %B618, label %B756
 
 B618:
-  %.277 = getelementptr i8, ptr %arg.r, i64 776
+  %.277 = getelementptr i8, ptr %arg.r, i64 800
   %.278 = load i64, ptr %.277, align 8
   %.279 = inttoptr i64 %.278 to ptr
-  %.281 = getelementptr i8, ptr %arg.r, i64 832
+  %.281 = getelementptr i8, ptr %arg.r, i64 856
   %.282 = load i64, ptr %.281, align 8
   %.283 = inttoptr i64 %.282 to ptr
   %.286 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t1, ptr %.279, ptr %.283)
@@ -5711,7 +5712,7 @@ B778:
   br i1 %or.cond27, label %B822, label %B950
 
 B822:
-  %.383 = getelementptr i8, ptr %arg.r, i64 688
+  %.383 = getelementptr i8, ptr %arg.r, i64 712
   %.384 = load i64, ptr %.383, align 8
   %.385 = inttoptr i64 %.384 to ptr
   %.389 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t1, ptr %29, ptr %.385)
@@ -5841,7 +5842,7 @@ B950:
   br label %common.ret
 
 B496.endif:
-  %.8.i1 = getelementptr i8, ptr %arg.r, i64 472
+  %.8.i1 = getelementptr i8, ptr %arg.r, i64 496
   %.9.i2 = load i64, ptr %.8.i1, align 8, !noalias !163
   %.10.i3 = icmp eq i64 %.9.i2, 0
   %spec.select.i = select i1 %.10.i3, i64 4, i64 %.9.i2
@@ -5865,7 +5866,7 @@ B526.endif.if.if:
   br label %common.ret
 
 B726.endif:
-  %.8.i61 = getelementptr i8, ptr %arg.r, i64 472
+  %.8.i61 = getelementptr i8, ptr %arg.r, i64 496
   %.9.i62 = load i64, ptr %.8.i61, align 8, !noalias !166
   %.10.i63 = icmp eq i64 %.9.i62, 0
   %spec.select.i64 = select i1 %.10.i63, i64 4, i64 %.9.i62
@@ -5873,7 +5874,7 @@ B726.endif:
   br label %common.ret
 
 B920.endif:
-  %.8.i122 = getelementptr i8, ptr %arg.r, i64 472
+  %.8.i122 = getelementptr i8, ptr %arg.r, i64 496
   %.9.i123 = load i64, ptr %.8.i122, align 8, !noalias !169
   %.10.i124 = icmp eq i64 %.9.i123, 0
   %spec.select.i125 = select i1 %.10.i124, i64 4, i64 %.9.i123
@@ -6063,156 +6064,208 @@ common.ret:
   ret i64 %.20
 }
 
-define i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((488, 496)) %arg.r, double %arg.t_next) local_unnamed_addr {
-for.end.endif:
-  %.189 = alloca ptr, align 8
+define i32 @_ZN18biped_adrc_kernels7throughB3v58B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ad(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((512, 520)) %arg.r, double %arg.t_next) local_unnamed_addr {
+B0:
+  %.185 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
-  %.465 = alloca i64, align 8
+  %.484 = alloca i64, align 8
+  store i64 0, ptr %.484, align 8
   %excinfo.7 = alloca ptr, align 8
   store ptr null, ptr %excinfo.7, align 8
-  %.540 = alloca ptr, align 8
+  %.559 = alloca ptr, align 8
   %excinfo.8 = alloca ptr, align 8
-  %.575 = alloca ptr, align 8
+  %.594 = alloca ptr, align 8
   %excinfo.9 = alloca ptr, align 8
   store ptr null, ptr %excinfo.9, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 344
-  %.13 = load double, ptr %.11, align 8
-  %.15.i = tail call double @nextafter(double %arg.t_next, double 0xFFF0000000000000), !noalias !173
-  %.77 = getelementptr i8, ptr %arg.r, i64 488
-  store double %.15.i, ptr %.77, align 8
-  %.82 = fsub double %arg.t_next, %.13
-  %.84 = getelementptr i8, ptr %arg.r, i64 248
-  %.86 = load double, ptr %.84, align 8
-  %.90 = fdiv double %.82, %.86
-  %.91 = fadd double %.90, -1.000000e-09
-  %.99.le = tail call double @llvm.ceil.f64(double %.91)
-  %.12.i = fcmp ogt double %.99.le, 1.000000e+00
-  %.13.i = select i1 %.12.i, double %.99.le, double 1.000000e+00
-  %"$phi230.4.2.0" = select i1 %.12.i, double %.86, double %.82
-  %.193 = call i32 @_ZN18biped_adrc_kernels5beginB3v61B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.189, ptr nonnull %excinfo.3, ptr nonnull %arg.r, double %.13, double %"$phi230.4.2.0")
-  %cond = icmp eq i32 %.193, 0
-  br i1 %cond, label %B230.endif, label %B230.if.if, !prof !24
+  %.11 = getelementptr i8, ptr %arg.r, i64 424
+  %.12 = load i64, ptr %.11, align 8
+  store i64 0, ptr %.11, align 8
+  %.20 = icmp eq i64 %.12, 0
+  br i1 %.20, label %B46, label %B0.B70_crit_edge
 
-B316:
-  %t.2.0 = phi double [ %t1.2.176, %B948 ], [ %.13, %B316.preheader ]
-  %skipped.3.0 = phi i64 [ %skipped.4.1, %B948 ], [ 0, %B316.preheader ]
-  %steps.2.0 = phi i64 [ %0, %B948 ], [ 0, %B316.preheader ]
-  %0 = add nuw nsw i64 %steps.2.0, 1
-  %.274 = load i64, ptr %sunkaddr, align 8
-  %.275 = icmp eq i64 %.274, 2
-  br i1 %.275, label %B358, label %B392
+B0.B70_crit_edge:
+  %.32.phi.trans.insert = getelementptr i8, ptr %arg.r, i64 432
+  %.34.pre = load double, ptr %.32.phi.trans.insert, align 8
+  %.36.phi.trans.insert = getelementptr i8, ptr %arg.r, i64 344
+  %.38.pre = load double, ptr %.36.phi.trans.insert, align 8
+  br label %for.end.endif
 
-B358:
-  %.8.i = load double, ptr %.11, align 8, !noalias !176
-  br label %B516
+B46:
+  %.23 = getelementptr i8, ptr %arg.r, i64 344
+  %.25 = load double, ptr %.23, align 8
+  %.27 = getelementptr i8, ptr %arg.r, i64 432
+  store double %.25, ptr %.27, align 8
+  br label %for.end.endif
 
-B392:
-  %.318 = uitofp nneg i64 %0 to double
-  %.319 = fcmp ogt double %.13.i, %.318
-  br i1 %.319, label %B404, label %B504
+B266:
+  %.178 = fsub double %arg.t_next, %.38
+  %"$phi316.4.2.0" = select i1 %.12.i, double %.101, double %.178
+  %.189 = call i32 @_ZN18biped_adrc_kernels5beginB3v61B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.185, ptr nonnull %excinfo.3, ptr nonnull %arg.r, double %.38, double %"$phi316.4.2.0")
+  %cond = icmp eq i32 %.189, 0
+  br i1 %cond, label %B316.endif, label %B316.if.if, !prof !24
 
-B404:
-  %.324 = load double, ptr %.84, align 8
-  %.327 = fmul double %.324, %.318
-  %.329 = fadd double %.13, %.327
-  br label %B504
+B388:
+  %.277 = fcmp olt double %.38, %arg.t_next
+  br i1 %.277, label %B402.preheader, label %B1110
 
-B504:
-  %"$phi432.0.2.1" = phi double [ %.329, %B404 ], [ %arg.t_next, %B392 ]
-  %.346 = fcmp ole double %.13.i, %.318
-  %.15.i6 = zext i1 %.346 to i64
-  %.374 = tail call i64 @fixed(ptr nonnull %arg.r, double %t.2.0, double %"$phi432.0.2.1", i64 %.15.i6)
-  %.379.not = icmp eq i64 %.374, 0
-  br i1 %.379.not, label %B516, label %B578
+B402.preheader:
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
+  %sunkaddr98 = getelementptr i8, ptr %arg.r, i64 344
+  %sunkaddr100 = getelementptr i8, ptr %arg.r, i64 400
+  %sunkaddr107 = getelementptr i8, ptr %arg.r, i64 64
+  %sunkaddr101 = getelementptr i8, ptr %arg.r, i64 208
+  %sunkaddr102 = getelementptr i8, ptr %arg.r, i64 688
+  %sunkaddr103 = getelementptr i8, ptr %arg.r, i64 696
+  %sunkaddr104 = getelementptr i8, ptr %arg.r, i64 416
+  br label %B402
 
-B516:
-  %t1.2.176 = phi double [ %"$phi432.0.2.1", %B504 ], [ %.8.i, %B358 ]
-  %.383 = fcmp ole double %t1.2.176, %t.2.0
-  %.386 = icmp samesign ugt i64 %steps.2.0, 9999999
-  %or.cond = select i1 %.383, i1 true, i1 %.386
-  br i1 %or.cond, label %B578, label %B580
+B402:
+  %steps.2.0 = phi i64 [ %0, %B1096 ], [ %.12, %B402.preheader ]
+  %t.2.0 = phi double [ %t1.2.182, %B1096 ], [ %.38, %B402.preheader ]
+  %skipped.3.0 = phi i64 [ %skipped.4.1, %B1096 ], [ 0, %B402.preheader ]
+  %0 = add i64 %steps.2.0, 1
+  %.293 = load i64, ptr %sunkaddr, align 8
+  %.294 = icmp eq i64 %.293, 2
+  br i1 %.294, label %B444, label %B478
+
+B444:
+  %.8.i = load double, ptr %sunkaddr98, align 8, !noalias !173
+  br label %B602
+
+B478:
+  %.337 = sitofp i64 %0 to double
+  %.338 = fcmp ogt double %.13.i, %.337
+  br i1 %.338, label %B490, label %B590
+
+B490:
+  %.343 = load double, ptr %.99, align 8
+  %.346 = fmul double %.343, %.337
+  %.348 = fadd double %.34, %.346
+  br label %B590
+
+B590:
+  %"$phi518.0.2.1" = phi double [ %.348, %B490 ], [ %arg.t_next, %B478 ]
+  %.365 = fcmp ole double %.13.i, %.337
+  %.15.i16 = zext i1 %.365 to i64
+  %.393 = tail call i64 @fixed(ptr nonnull %arg.r, double %t.2.0, double %"$phi518.0.2.1", i64 %.15.i16)
+  %.398.not = icmp eq i64 %.393, 0
+  br i1 %.398.not, label %B602, label %B664
+
+B602:
+  %t1.2.182 = phi double [ %"$phi518.0.2.1", %B590 ], [ %.8.i, %B444 ]
+  %.402 = fcmp ole double %t1.2.182, %t.2.0
+  %.405 = icmp sgt i64 %steps.2.0, 9999999
+  %or.cond = select i1 %.402, i1 true, i1 %.405
+  br i1 %or.cond, label %B664, label %B666
 
 common.ret:
-  %common.ret.op = phi i32 [ 0, %B578 ], [ 0, %B682 ], [ 0, %B962 ], [ %.579, %B788.if.if ], [ %.544, %B750.if.if ], [ %.193, %B230.if.if ], [ %.469, %B652.if.if ]
+  %common.ret.op = phi i32 [ 0, %B664 ], [ 0, %B768 ], [ 0, %B1068 ], [ 0, %B1110 ], [ %.598, %B874.if.if ], [ %.563, %B836.if.if ], [ %.189, %B316.if.if ], [ %.488, %B738.if.if ]
   ret i32 %common.ret.op
 
-B578:
-  %"$phi578.0.2.0" = phi i64 [ %.374, %B504 ], [ 6, %B516 ]
-  store i64 %"$phi578.0.2.0", ptr %retptr, align 8
+B664:
+  %"$phi664.0.2.0" = phi i64 [ %.393, %B590 ], [ 6, %B602 ]
+  store i64 %"$phi664.0.2.0", ptr %retptr, align 8
   br label %common.ret
 
-B580:
-  %.429 = tail call i64 @event(ptr nonnull %arg.r, double %t.2.0, double %t1.2.176)
-  switch i64 %.429, label %B652 [
-    i64 0, label %B684
-    i64 7, label %B682
+B666:
+  %.448 = tail call i64 @event(ptr nonnull %arg.r, double %t.2.0, double %t1.2.182)
+  switch i64 %.448, label %B738 [
+    i64 0, label %B770
+    i64 7, label %B768
   ]
 
-B652:
-  store i64 0, ptr %.465, align 8
-  %.469 = call i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr nonnull %.465, ptr nonnull %excinfo.7, ptr nonnull %arg.r, i64 %.429)
-  %.479 = load i64, ptr %.465, align 8
-  %cond7 = icmp eq i32 %.469, 0
-  br i1 %cond7, label %B682, label %B652.if.if, !prof !24
+B738:
+  store i64 0, ptr %.484, align 8
+  %.488 = call i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ax(ptr nonnull %.484, ptr nonnull %excinfo.7, ptr nonnull %arg.r, i64 %.448)
+  %.498 = load i64, ptr %.484, align 8
+  %cond17 = icmp eq i32 %.488, 0
+  br i1 %cond17, label %B768, label %B738.if.if, !prof !24
 
-B682:
-  %"$phi682.0.2.0" = phi i64 [ %.479, %B652 ], [ %.429, %B580 ]
-  store i64 %"$phi682.0.2.0", ptr %retptr, align 8
+B768:
+  %"$phi768.0.2.0" = phi i64 [ %.498, %B738 ], [ %.448, %B666 ]
+  store i64 %"$phi768.0.2.0", ptr %retptr, align 8
   br label %common.ret
 
-B684:
-  %.502 = add nsw i64 %skipped.3.0, 1
-  %.514 = load i64, ptr %.17.i, align 8
-  %.515 = icmp sgt i64 %.514, 0
-  br i1 %.515, label %B716, label %B788
+B770:
+  %.521 = add nsw i64 %skipped.3.0, 1
+  %.533 = load i64, ptr %sunkaddr100, align 8
+  %.534 = icmp sgt i64 %.533, 0
+  br i1 %.534, label %B802, label %B874
 
-B716:
-  %.521 = fcmp oge double %t1.2.176, %arg.t_next
-  %.530 = icmp sge i64 %.502, %.514
-  %or.cond83 = select i1 %.521, i1 true, i1 %.530
-  br i1 %or.cond83, label %B750, label %B788
+B802:
+  %.540 = fcmp oge double %t1.2.182, %arg.t_next
+  %.549 = icmp sge i64 %.521, %.533
+  %or.cond89 = select i1 %.540, i1 true, i1 %.549
+  br i1 %or.cond89, label %B836, label %B874
 
-B750:
-  %.544 = call i32 @_ZN18biped_adrc_kernels5nodesB3v67B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.540, ptr nonnull %excinfo.8, ptr nonnull %arg.r, double %t.2.0, double %t1.2.176)
-  %cond8 = icmp eq i32 %.544, 0
-  br i1 %cond8, label %B788, label %B750.if.if, !prof !24
+B836:
+  %.563 = call i32 @_ZN18biped_adrc_kernels5nodesB3v67B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.559, ptr nonnull %excinfo.8, ptr nonnull %arg.r, double %t.2.0, double %t1.2.182)
+  %cond18 = icmp eq i32 %.563, 0
+  br i1 %cond18, label %B874, label %B836.if.if, !prof !24
 
-B788:
-  %skipped.4.1 = phi i64 [ %.502, %B684 ], [ %.502, %B716 ], [ 0, %B750 ]
-  %.579 = call i32 @_ZN18biped_adrc_kernels7pass_onB3v68B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.575, ptr nonnull %excinfo.9, ptr nonnull %arg.r)
-  %cond9 = icmp eq i32 %.579, 0
-  br i1 %cond9, label %B788.endif, label %B788.if.if, !prof !24
+B874:
+  %skipped.4.1 = phi i64 [ %.521, %B770 ], [ %.521, %B802 ], [ 0, %B836 ]
+  %.598 = call i32 @_ZN18biped_adrc_kernels7pass_onB3v68B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.594, ptr nonnull %excinfo.9, ptr nonnull %arg.r)
+  %cond19 = icmp eq i32 %.598, 0
+  br i1 %cond19, label %B874.endif, label %B874.if.if, !prof !24
 
-B858:
-  %.617 = fcmp olt double %t1.2.176, %arg.t_next
-  br i1 %.617, label %B892, label %B870
+B944:
+  %.636 = fcmp olt double %t1.2.182, %arg.t_next
+  br i1 %.636, label %B978, label %B956
 
-B870:
-  %.621 = load i64, ptr %sunkaddr43, align 8
-  %.622.not = icmp eq i64 %.621, 0
-  br i1 %.622.not, label %B948, label %B892
+B956:
+  %.640 = load i64, ptr %sunkaddr101, align 8
+  %.641.not = icmp eq i64 %.640, 0
+  br i1 %.641.not, label %B1034, label %B978
 
-B892:
-  %.626 = load i64, ptr %.223, align 8
-  %.627 = inttoptr i64 %.626 to ptr
-  %.630 = load i64, ptr %.227, align 8
-  %.631 = inttoptr i64 %.630 to ptr
-  %.634 = tail call ptr @node(ptr nonnull %arg.r, double %t1.2.176, ptr %.627, ptr %.631)
-  br label %B948
+B978:
+  %.645 = load i64, ptr %sunkaddr102, align 8
+  %.646 = inttoptr i64 %.645 to ptr
+  %.649 = load i64, ptr %sunkaddr103, align 8
+  %.650 = inttoptr i64 %.649 to ptr
+  %.653 = tail call ptr @node(ptr nonnull %arg.r, double %t1.2.182, ptr %.646, ptr %.650)
+  br label %B1034
 
-B948:
-  %.656 = fcmp olt double %t1.2.176, %arg.t_next
-  br i1 %.656, label %B316, label %B962
+B1034:
+  %.657 = load i64, ptr %sunkaddr104, align 8
+  %.658 = icmp ne i64 %.657, 0
+  %.662 = fcmp olt double %t1.2.182, %arg.t_next
+  %or.cond90 = select i1 %.658, i1 %.662, i1 false
+  br i1 %or.cond90, label %B1068, label %B1096
 
-B962:
+B1068:
+  store i64 %0, ptr %.11, align 8
+  store i64 10, ptr %retptr, align 8
+  br label %common.ret
+
+B1096:
+  br i1 %.662, label %B402, label %B1110
+
+B1110:
   store i64 0, ptr %retptr, align 8
   br label %common.ret
 
-B230.endif:
-  %.223 = getelementptr i8, ptr %arg.r, i64 664
+for.end.endif:
+  %.38 = phi double [ %.38.pre, %B0.B70_crit_edge ], [ %.25, %B46 ]
+  %.34 = phi double [ %.34.pre, %B0.B70_crit_edge ], [ %.25, %B46 ]
+  %.15.i = tail call double @nextafter(double %arg.t_next, double 0xFFF0000000000000), !noalias !176
+  %.92 = getelementptr i8, ptr %arg.r, i64 512
+  store double %.15.i, ptr %.92, align 8
+  %.97 = fsub double %arg.t_next, %.34
+  %.99 = getelementptr i8, ptr %arg.r, i64 248
+  %.101 = load double, ptr %.99, align 8
+  %.105 = fdiv double %.97, %.101
+  %.106 = fadd double %.105, -1.000000e-09
+  %.114.le = tail call double @llvm.ceil.f64(double %.106)
+  %.12.i = fcmp ogt double %.114.le, 1.000000e+00
+  %.13.i = select i1 %.12.i, double %.114.le, double 1.000000e+00
+  br i1 %.20, label %B266, label %B388
+
+B316.endif:
+  %.219 = getelementptr i8, ptr %arg.r, i64 688
+  %.220 = load i64, ptr %.219, align 8
+  %.223 = getelementptr i8, ptr %arg.r, i64 696
   %.224 = load i64, ptr %.223, align 8
-  %.227 = getelementptr i8, ptr %arg.r, i64 672
-  %.228 = load i64, ptr %.227, align 8
   %.17.i = getelementptr i8, ptr %arg.r, i64 400
   %.18.i = load i64, ptr %.17.i, align 8, !noalias !179
   %.19.i = icmp sgt i64 %.18.i, 0
@@ -6222,55 +6275,42 @@ B26.i:
   %.22.i = getelementptr i8, ptr %arg.r, i64 64
   %.23.i = load i64, ptr %.22.i, align 8, !noalias !179
   %.24.not.i = icmp eq i64 %.23.i, 0
-  br i1 %.24.not.i, label %B230.endif.endif, label %B48.i
+  br i1 %.24.not.i, label %B388, label %B48.i
 
 B48.i:
-  %1 = inttoptr i64 %.228 to ptr
-  %2 = inttoptr i64 %.224 to ptr
-  %.30.i = tail call ptr @node(ptr nonnull %arg.r, double %.13, ptr %2, ptr %1), !noalias !179
-  br label %B230.endif.endif
+  %1 = inttoptr i64 %.224 to ptr
+  %2 = inttoptr i64 %.220 to ptr
+  %.30.i = tail call ptr @node(ptr nonnull %arg.r, double %.38, ptr %2, ptr %1), !noalias !179
+  br label %B388
 
-B230.if.if:
+B316.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B230.endif.endif:
-  %.258 = fcmp olt double %.13, %arg.t_next
-  br i1 %.258, label %B316.preheader, label %B962
-
-B316.preheader:
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 144
-  %sunkaddr47 = getelementptr i8, ptr %arg.r, i64 64
-  %sunkaddr43 = getelementptr i8, ptr %arg.r, i64 208
-  br label %B316
-
-B652.if.if:
-  %.477 = icmp sgt i32 %.469, 0
-  %.470 = load ptr, ptr %excinfo.7, align 8
-  %.478 = select i1 %.477, ptr %.470, ptr undef
-  store ptr %.478, ptr %excinfo, align 8
+B738.if.if:
+  %.496 = icmp sgt i32 %.488, 0
+  %.489 = load ptr, ptr %excinfo.7, align 8
+  %.497 = select i1 %.496, ptr %.489, ptr undef
+  store ptr %.497, ptr %excinfo, align 8
   br label %common.ret
 
-B750.if.if:
+B836.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B788.endif:
-  store double %t1.2.176, ptr %.11, align 8
-  %.612 = load i64, ptr %sunkaddr47, align 8
-  %.613.not = icmp eq i64 %.612, 0
-  br i1 %.613.not, label %B948, label %B858
+B874.endif:
+  store double %t1.2.182, ptr %sunkaddr98, align 8
+  %.631 = load i64, ptr %sunkaddr107, align 8
+  %.632.not = icmp eq i64 %.631, 0
+  br i1 %.632.not, label %B1034, label %B944
 
-B788.if.if:
-  %.587 = icmp sgt i32 %.579, 0
-  %.580 = load ptr, ptr %excinfo.9, align 8
-  %.588 = select i1 %.587, ptr %.580, ptr undef
-  store ptr %.588, ptr %excinfo, align 8
+B874.if.if:
+  %.606 = icmp sgt i32 %.598, 0
+  %.599 = load ptr, ptr %excinfo.9, align 8
+  %.607 = select i1 %.606, ptr %.599, ptr undef
+  store ptr %.607, ptr %excinfo, align 8
   br label %common.ret
 }
-
-
-declare double @nextafter(double, double) local_unnamed_addr #4
 
 define linkonce_odr i32 @_ZN18biped_adrc_kernels5beginB3v61B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr %arg.r, double %arg.t, double %arg.h) local_unnamed_addr {
 B0:
@@ -6293,10 +6333,10 @@ B178:
   br i1 %.74, label %B200, label %B314
 
 B200:
-  %.77 = getelementptr i8, ptr %arg.r, i64 664
+  %.77 = getelementptr i8, ptr %arg.r, i64 688
   %.78 = load i64, ptr %.77, align 8
   %.79 = inttoptr i64 %.78 to ptr
-  %.81 = getelementptr i8, ptr %arg.r, i64 672
+  %.81 = getelementptr i8, ptr %arg.r, i64 696
   %.82 = load i64, ptr %.81, align 8
   %.83 = inttoptr i64 %.82 to ptr
   %.87 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %.79, double %arg.h, ptr %.83)
@@ -6309,32 +6349,32 @@ B292:
   br i1 %.103, label %B314, label %common.ret
 
 B314:
-  %.106 = getelementptr i8, ptr %arg.r, i64 440
+  %.106 = getelementptr i8, ptr %arg.r, i64 464
   %.107 = load i64, ptr %.106, align 8
   %.108 = icmp eq i64 %.107, 0
   br i1 %.108, label %B336, label %common.ret
 
 B336:
-  %.111 = getelementptr i8, ptr %arg.r, i64 664
+  %.111 = getelementptr i8, ptr %arg.r, i64 688
   %.112 = load i64, ptr %.111, align 8
   %.113 = inttoptr i64 %.112 to ptr
-  %.115 = getelementptr i8, ptr %arg.r, i64 672
+  %.115 = getelementptr i8, ptr %arg.r, i64 696
   %.116 = load i64, ptr %.115, align 8
   %.117 = inttoptr i64 %.116 to ptr
   %.120 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t, ptr %.113, ptr %.117)
   br label %common.ret
 
 common.ret:
-  %.127 = getelementptr i8, ptr %arg.r, i64 440
+  %.127 = getelementptr i8, ptr %arg.r, i64 464
   store i64 0, ptr %.127, align 8
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
 B36.endif:
-  %.20 = getelementptr i8, ptr %arg.r, i64 664
+  %.20 = getelementptr i8, ptr %arg.r, i64 688
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
-  %.24 = getelementptr i8, ptr %arg.r, i64 768
+  %.24 = getelementptr i8, ptr %arg.r, i64 792
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
   %.7.i = getelementptr i8, ptr %arg.r, i64 32
@@ -6346,7 +6386,7 @@ B36.endif:
   tail call void %.12.i(ptr %.11.i, ptr %.22, ptr %.26), !noalias !182
   %.56 = load i64, ptr %.24, align 8
   %.57 = inttoptr i64 %.56 to ptr
-  %.59 = getelementptr i8, ptr %arg.r, i64 824
+  %.59 = getelementptr i8, ptr %arg.r, i64 848
   %.60 = load i64, ptr %.59, align 8
   %.61 = inttoptr i64 %.60 to ptr
   %.64 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t, ptr %.57, ptr %.61)
@@ -6358,9 +6398,9 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels4stopB3v66B58c8tJTIeFIjxB2IKSgI4
 B0:
   %.107 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 496
+  %.11 = getelementptr i8, ptr %arg.r, i64 520
   %.13 = load double, ptr %.11, align 8
-  %.19 = getelementptr i8, ptr %arg.r, i64 736
+  %.19 = getelementptr i8, ptr %arg.r, i64 760
   %.20 = load i64, ptr %.19, align 8
   %.23 = getelementptr i8, ptr %arg.r, i64 80
   %.24 = load i64, ptr %.23, align 8
@@ -6485,7 +6525,7 @@ _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2f
 
 B100:
   %28 = inttoptr i64 %.20 to ptr
-  %.101 = getelementptr i8, ptr %arg.r, i64 664
+  %.101 = getelementptr i8, ptr %arg.r, i64 688
   %.102 = load i64, ptr %.101, align 8
   %.103 = inttoptr i64 %.102 to ptr
   %.111 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.107, ptr nonnull %excinfo.3, ptr %28, ptr %.103, i64 %.24)
@@ -6511,7 +6551,7 @@ B204:
 B308.thread:
   %.1974 = load i64, ptr %.101, align 8
   %.1985 = inttoptr i64 %.1974 to ptr
-  %.2006 = getelementptr i8, ptr %arg.r, i64 672
+  %.2006 = getelementptr i8, ptr %arg.r, i64 696
   %.2017 = load i64, ptr %.2006, align 8
   %.2028 = inttoptr i64 %.2017 to ptr
   br label %B26.i
@@ -6520,7 +6560,7 @@ B308:
   %.15.i = tail call double @nextafter(double %.13, double 0xFFF0000000000000), !noalias !191
   %.185 = load i64, ptr %.101, align 8
   %.186 = inttoptr i64 %.185 to ptr
-  %.188 = getelementptr i8, ptr %arg.r, i64 672
+  %.188 = getelementptr i8, ptr %arg.r, i64 696
   %.189 = load i64, ptr %.188, align 8
   %.190 = inttoptr i64 %.189 to ptr
   %.192 = tail call ptr @flow(ptr nonnull %arg.r, double %.15.i, ptr %.186, ptr %.190)
@@ -6547,7 +6587,7 @@ B48.i:
   br label %B308.endif
 
 B70.endif:
-  %.8.i = getelementptr i8, ptr %arg.r, i64 472
+  %.8.i = getelementptr i8, ptr %arg.r, i64 496
   %.9.i = load i64, ptr %.8.i, align 8, !noalias !197
   %.10.i = icmp eq i64 %.9.i, 0
   %spec.select.i = select i1 %.10.i, i64 4, i64 %.9.i
@@ -6601,10 +6641,10 @@ B96:
   br i1 %exitcond.not, label %common.ret, label %B96
 
 common.ret:
-  %.224 = getelementptr i8, ptr %arg.r, i64 680
+  %.224 = getelementptr i8, ptr %arg.r, i64 704
   %.225 = load i64, ptr %.224, align 8
   %.226 = inttoptr i64 %.225 to ptr
-  %.228 = getelementptr i8, ptr %arg.r, i64 688
+  %.228 = getelementptr i8, ptr %arg.r, i64 712
   %.229 = load i64, ptr %.228, align 8
   %.230 = inttoptr i64 %.229 to ptr
   %.233 = tail call ptr @node(ptr nonnull %arg.r, double %arg.t1, ptr %.226, ptr %.230)
@@ -6622,8 +6662,8 @@ B60.endif:
 
 B96.lr.ph:
   %.184 = uitofp nneg i64 %.13.i to double
-  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 736
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 744
+  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 760
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 768
   br label %B96
 }
 
@@ -6638,10 +6678,10 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.136 = alloca ptr, align 8
   %excinfo.4 = alloca ptr, align 8
-  %.9 = getelementptr i8, ptr %arg.r, i64 680
+  %.9 = getelementptr i8, ptr %arg.r, i64 704
   %.10 = load i64, ptr %.9, align 8
   %.11 = inttoptr i64 %.10 to ptr
-  %.13 = getelementptr i8, ptr %arg.r, i64 664
+  %.13 = getelementptr i8, ptr %arg.r, i64 688
   %.14 = load i64, ptr %.13, align 8
   %.15 = inttoptr i64 %.14 to ptr
   %.17 = getelementptr i8, ptr %arg.r, i64 96
@@ -6653,10 +6693,10 @@ B0:
   ], !prof !8
 
 B164:
-  %.88 = getelementptr i8, ptr %arg.r, i64 776
+  %.88 = getelementptr i8, ptr %arg.r, i64 800
   %.89 = load i64, ptr %.88, align 8
   %.90 = inttoptr i64 %.89 to ptr
-  %.92 = getelementptr i8, ptr %arg.r, i64 768
+  %.92 = getelementptr i8, ptr %arg.r, i64 792
   %.93 = load i64, ptr %.92, align 8
   %.94 = inttoptr i64 %.93 to ptr
   %.96 = getelementptr i8, ptr %arg.r, i64 80
@@ -6674,10 +6714,10 @@ common.ret:
   ret i32 %common.ret.op
 
 B0.endif:
-  %.47 = getelementptr i8, ptr %arg.r, i64 688
+  %.47 = getelementptr i8, ptr %arg.r, i64 712
   %.48 = load i64, ptr %.47, align 8
   %.49 = inttoptr i64 %.48 to ptr
-  %.51 = getelementptr i8, ptr %arg.r, i64 672
+  %.51 = getelementptr i8, ptr %arg.r, i64 696
   %.52 = load i64, ptr %.51, align 8
   %.53 = inttoptr i64 %.52 to ptr
   %.56 = load i64, ptr %.17, align 8
@@ -6694,10 +6734,10 @@ B0.endif.endif:
   br i1 %.84, label %B164, label %common.ret
 
 B164.endif:
-  %.124 = getelementptr i8, ptr %arg.r, i64 832
+  %.124 = getelementptr i8, ptr %arg.r, i64 856
   %.125 = load i64, ptr %.124, align 8
   %.126 = inttoptr i64 %.125 to ptr
-  %.128 = getelementptr i8, ptr %arg.r, i64 824
+  %.128 = getelementptr i8, ptr %arg.r, i64 848
   %.129 = load i64, ptr %.128, align 8
   %.130 = inttoptr i64 %.129 to ptr
   %.132 = getelementptr i8, ptr %arg.r, i64 120
@@ -6713,7 +6753,10 @@ B164.endif.if.if:
 }
 
 
-define i64 @through(ptr initializes((488, 496)) %.1, double %.2) local_unnamed_addr #0 {
+declare double @nextafter(double, double) local_unnamed_addr #4
+
+
+define i64 @through(ptr initializes((512, 520)) %.1, double %.2) local_unnamed_addr #0 {
 entry:
   %.4 = alloca i64, align 8
   store i64 0, ptr %.4, align 8
@@ -6732,7 +6775,7 @@ common.ret:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((472, 488)) %arg.r) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels5go_onB3v69B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((496, 512)) %arg.r) local_unnamed_addr #0 {
 B0:
   %.33.i = alloca double, align 8
   %excinfo.1.i = alloca ptr, align 8
@@ -6740,7 +6783,7 @@ B0:
   %excinfo.1 = alloca ptr, align 8
   %.8 = getelementptr i8, ptr %arg.r, i64 408
   %.9 = load i64, ptr %.8, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 472
+  %.14 = getelementptr i8, ptr %arg.r, i64 496
   store i64 0, ptr %.14, align 8
   %.22 = call i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.18, ptr nonnull %excinfo.1, ptr %arg.r)
   switch i32 %.22, label %B0.if.if [
@@ -6753,10 +6796,10 @@ B86:
   %.10.i = load double, ptr %.8.i, align 8, !noalias !200
   %.12.i = getelementptr i8, ptr %arg.r, i64 376
   store double %.10.i, ptr %.12.i, align 8, !noalias !200
-  %.20.i = getelementptr i8, ptr %arg.r, i64 664
+  %.20.i = getelementptr i8, ptr %arg.r, i64 688
   %.21.i = load i64, ptr %.20.i, align 8, !noalias !200
   %.22.i = inttoptr i64 %.21.i to ptr
-  %.24.i = getelementptr i8, ptr %arg.r, i64 640
+  %.24.i = getelementptr i8, ptr %arg.r, i64 664
   %.25.i = load i64, ptr %.24.i, align 8, !noalias !200
   %.26.i = inttoptr i64 %.25.i to ptr
   %.28.i = tail call ptr @watch(ptr nonnull %arg.r, double %.10.i, ptr %.22.i, ptr %.26.i), !noalias !200
@@ -6786,7 +6829,7 @@ B116:
   br i1 %.15.i, label %B36.i.preheader, label %_ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread
 
 B36.i.preheader:
-  %sunkaddr30 = getelementptr i8, ptr %arg.r, i64 488
+  %sunkaddr30 = getelementptr i8, ptr %arg.r, i64 512
   br label %B36.i
 
 B36.i:
@@ -6885,7 +6928,7 @@ B266.loopexit.unr-lcssa:
 
 B242.epil.preheader:
   %.2114749.epil.init = phi i64 [ 0, %B242.lr.ph ], [ %unroll_iter, %B266.loopexit.unr-lcssa ]
-  %sunkaddr36 = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr36 = getelementptr i8, ptr %arg.r, i64 696
   br label %B242.epil
 
 B242.epil:
@@ -6907,9 +6950,9 @@ B266.loopexit:
 
 B266:
   %.258 = phi double [ %.258.pre, %B266.loopexit ], [ %.116, %B200.endif ]
-  %.260 = getelementptr i8, ptr %arg.r, i64 664
+  %.260 = getelementptr i8, ptr %arg.r, i64 688
   %.261 = load i64, ptr %.260, align 8
-  %.264 = getelementptr i8, ptr %arg.r, i64 672
+  %.264 = getelementptr i8, ptr %arg.r, i64 696
   %.265 = load i64, ptr %.264, align 8
   %.17.i = getelementptr i8, ptr %arg.r, i64 400
   %.18.i = load i64, ptr %.17.i, align 8, !noalias !208
@@ -6959,14 +7002,14 @@ B242.lr.ph:
 
 B242.lr.ph.new:
   %unroll_iter = and i64 %.125, 9223372036854775800
-  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 696
   br label %B242
 }
 
 
-define linkonce_odr i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr initializes((480, 488)) %arg.r) local_unnamed_addr #0 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels5lowerB3v70B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr initializes((504, 512)) %arg.r) local_unnamed_addr #0 {
 B0.endif:
-  %.8 = getelementptr i8, ptr %arg.r, i64 480
+  %.8 = getelementptr i8, ptr %arg.r, i64 504
   store double 0.000000e+00, ptr %.8, align 8
   %.12 = getelementptr i8, ptr %arg.r, i64 184
   %.13 = load i64, ptr %.12, align 8
@@ -7448,7 +7491,7 @@ B237.3:
 }
 
 
-define i64 @go_on(ptr initializes((472, 488)) %.1) local_unnamed_addr #0 {
+define i64 @go_on(ptr initializes((496, 512)) %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
@@ -7477,7 +7520,7 @@ B0:
   %.12 = getelementptr i8, ptr %arg.r, i64 352
   %.14 = load double, ptr %.12, align 8
   %.15 = fadd double %.14, 1.000000e+00
-  %.17 = getelementptr i8, ptr %arg.r, i64 608
+  %.17 = getelementptr i8, ptr %arg.r, i64 632
   %.18 = load i64, ptr %.17, align 8
   %.19 = inttoptr i64 %.18 to ptr
   store double %.10, ptr %.19, align 8
@@ -7485,7 +7528,7 @@ B0:
   %.25 = inttoptr i64 %.24 to ptr
   %.26 = getelementptr i8, ptr %.25, i64 8
   store double %.15, ptr %.26, align 8
-  %.30 = getelementptr i8, ptr %arg.r, i64 664
+  %.30 = getelementptr i8, ptr %arg.r, i64 688
   %.31 = load i64, ptr %.30, align 8
   %.32 = inttoptr i64 %.31 to ptr
   %.35 = load i64, ptr %.17, align 8
@@ -7630,7 +7673,7 @@ B404:
   ], !prof !8
 
 B0.endif:
-  %.68 = getelementptr i8, ptr %arg.r, i64 736
+  %.68 = getelementptr i8, ptr %arg.r, i64 760
   %.69 = load i64, ptr %.68, align 8
   %.70 = inttoptr i64 %.69 to ptr
   store double 0x7FF8000000000000, ptr %.70, align 8
@@ -7704,16 +7747,16 @@ B0:
   %excinfo.2 = alloca ptr, align 8
   %.8 = getelementptr i8, ptr %arg.r, i64 80
   %.9 = load i64, ptr %.8, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 528
+  %.11 = getelementptr i8, ptr %arg.r, i64 552
   %.12 = load i64, ptr %.11, align 8
   %.13 = inttoptr i64 %.12 to ptr
-  %.15 = getelementptr i8, ptr %arg.r, i64 456
+  %.15 = getelementptr i8, ptr %arg.r, i64 480
   %.16 = load i64, ptr %.15, align 8
   %.20 = shl nsw i64 %.9, 1
   %.21 = or disjoint i64 %.20, 1
   %.22 = mul nsw i64 %.16, %.21
   %.23 = getelementptr double, ptr %.13, i64 %.22
-  %.32 = getelementptr i8, ptr %arg.r, i64 664
+  %.32 = getelementptr i8, ptr %arg.r, i64 688
   %.33 = load i64, ptr %.32, align 8
   %.34 = inttoptr i64 %.33 to ptr
   %.36 = getelementptr i8, ptr %.23, i64 8
@@ -7787,9 +7830,9 @@ common.ret:
 
 define i32 @_ZN18biped_adrc_kernels6strideB3v78B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
 B0:
-  %.8 = getelementptr i8, ptr %arg.r, i64 456
+  %.8 = getelementptr i8, ptr %arg.r, i64 480
   %.9 = load i64, ptr %.8, align 8
-  %.11 = getelementptr i8, ptr %arg.r, i64 448
+  %.11 = getelementptr i8, ptr %arg.r, i64 472
   %.12 = load i64, ptr %.11, align 8
   %.13 = icmp slt i64 %.9, %.12
   br i1 %.13, label %B36, label %common.ret
@@ -7810,10 +7853,10 @@ B88:
 B110:
   %.32 = getelementptr i8, ptr %arg.r, i64 344
   %.34 = load double, ptr %.32, align 8
-  %.36 = getelementptr i8, ptr %arg.r, i64 664
+  %.36 = getelementptr i8, ptr %arg.r, i64 688
   %.37 = load i64, ptr %.36, align 8
   %.38 = inttoptr i64 %.37 to ptr
-  %.40 = getelementptr i8, ptr %arg.r, i64 672
+  %.40 = getelementptr i8, ptr %arg.r, i64 696
   %.41 = load i64, ptr %.40, align 8
   %.42 = inttoptr i64 %.41 to ptr
   %.44 = tail call ptr @node(ptr nonnull %arg.r, double %.34, ptr %.38, ptr %.42)
@@ -7943,7 +7986,7 @@ entry:
   ret i64 %.17
 }
 
-define i32 @_ZN18biped_adrc_kernels4lookB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((480, 488)) %arg.r, i64 %arg.law, ptr %arg.out) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels4lookB3v80B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr initializes((504, 512)) %arg.r, i64 %arg.law, ptr %arg.out) local_unnamed_addr {
 B0:
   %.8 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
@@ -7957,9 +8000,9 @@ B0:
   ], !prof !8
 
 B0.endif:
-  %.34 = getelementptr i8, ptr %arg.r, i64 488
+  %.34 = getelementptr i8, ptr %arg.r, i64 512
   store double 0x7FF0000000000000, ptr %.34, align 8
-  %.38 = getelementptr i8, ptr %arg.r, i64 664
+  %.38 = getelementptr i8, ptr %arg.r, i64 688
   %.39 = load i64, ptr %.38, align 8
   %.40 = inttoptr i64 %.39 to ptr
   %.45 = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41, ptr nonnull %excinfo.2, ptr %arg.r, ptr %.40)
@@ -7978,7 +8021,7 @@ B0.endif.endif:
   %.65 = getelementptr i8, ptr %arg.r, i64 272
   %.66 = load i64, ptr %.65, align 8
   %.67 = inttoptr i64 %.66 to ptr
-  %.68 = getelementptr i8, ptr %arg.r, i64 608
+  %.68 = getelementptr i8, ptr %arg.r, i64 632
   %.69 = load i64, ptr %.68, align 8
   %.70 = inttoptr i64 %.69 to ptr
   %.71 = inttoptr i64 %arg.law to ptr
@@ -7995,7 +8038,7 @@ B0.endif.if.if:
 }
 
 
-define ptr @look(ptr initializes((480, 488)) %.1, i64 %.2, ptr %.3) local_unnamed_addr #0 {
+define ptr @look(ptr initializes((504, 512)) %.1, i64 %.2, ptr %.3) local_unnamed_addr #0 {
 entry:
   %.5 = alloca ptr, align 8
   store ptr null, ptr %.5, align 8
@@ -8039,10 +8082,10 @@ B66:
 B88:
   %.38 = getelementptr i8, ptr %arg.r, i64 344
   %.40 = load double, ptr %.38, align 8
-  %.42 = getelementptr i8, ptr %arg.r, i64 664
+  %.42 = getelementptr i8, ptr %arg.r, i64 688
   %.43 = load i64, ptr %.42, align 8
   %.44 = inttoptr i64 %.43 to ptr
-  %.46 = getelementptr i8, ptr %arg.r, i64 672
+  %.46 = getelementptr i8, ptr %arg.r, i64 696
   %.47 = load i64, ptr %.46, align 8
   %.48 = inttoptr i64 %.47 to ptr
   %.50 = tail call ptr @node(ptr nonnull %arg.r, double %.40, ptr %.44, ptr %.48)
@@ -8168,114 +8211,137 @@ _ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBr
 
 define i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
 B0:
-  %.158 = getelementptr i8, ptr %arg.r, i64 344
-  %.188 = getelementptr i8, ptr %arg.r, i64 216
-  %.8.i.i = getelementptr i8, ptr %arg.r, i64 152
-  %.8.i.pre = load double, ptr %.158, align 8, !noalias !234
-  %.9.i.i.pre = load i64, ptr %.8.i.i, align 8, !noalias !237
-  %.38.i.pre = load double, ptr %.188, align 8, !noalias !234
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 464
-  %sunkaddr25 = getelementptr i8, ptr %arg.r, i64 368
-  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 456
-  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 448
+  %.9 = getelementptr i8, ptr %arg.r, i64 216
+  %.11.pre = load double, ptr %.9, align 8
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 488
+  %sunkaddr30 = getelementptr i8, ptr %arg.r, i64 368
+  %sunkaddr31 = getelementptr i8, ptr %arg.r, i64 416
+  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 344
+  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 152
+  %sunkaddr27 = getelementptr i8, ptr %arg.r, i64 480
+  %sunkaddr28 = getelementptr i8, ptr %arg.r, i64 472
   br label %B6
 
 B6:
-  %.38.i = phi double [ %.190, %B384.endif.endif.endif ], [ %.38.i.pre, %B0 ]
-  %.9.i.i = phi i64 [ %.9.i, %B384.endif.endif.endif ], [ %.9.i.i.pre, %B0 ]
-  %.8.i = phi double [ %.160, %B384.endif.endif.endif ], [ %.8.i.pre, %B0 ]
-  %.11 = load double, ptr %sunkaddr, align 8
+  %.11 = phi double [ %.11.pre, %B0 ], [ %.224, %B6.backedge ]
+  %.12 = fcmp ogt double %.11, 0.000000e+00
+  %.17 = load double, ptr %sunkaddr, align 8
+  br i1 %.12, label %B28, label %B108.endif
+
+B28:
+  %.8.i = load double, ptr %sunkaddr23, align 8, !noalias !234
+  %.9.i.i = load i64, ptr %sunkaddr24, align 8, !noalias !237
   %.10.i.i = icmp eq i64 %.9.i.i, 1
   %"$phi52.0.2.0.in.v.i.i" = select i1 %.10.i.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i"
   %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !237
   %.15.i.i = fsub double %.8.i, %"$phi52.0.2.0.i.i"
-  %.20.i.i = fdiv double %.15.i.i, %.38.i
+  %.20.i.i = fdiv double %.15.i.i, %.11
   %.21.i.i = tail call double @llvm.floor.f64(double %.20.i.i)
   %.22.i.i = fptosi double %.21.i.i to i64
   %.13.i.i.i = tail call i64 @llvm.smax.i64(i64 %.22.i.i, i64 0)
   %.60.i.i = uitofp nneg i64 %.13.i.i.i to double
-  %.61.i.i = fmul double %.38.i, %.60.i.i
+  %.61.i.i = fmul double %.11, %.60.i.i
   %.63.i.i = fadd double %"$phi52.0.2.0.i.i", %.61.i.i
   %.65.i.i = fcmp ugt double %.63.i.i, %.8.i
-  br i1 %.65.i.i, label %B6.endif.endif, label %B108.i.i
+  br i1 %.65.i.i, label %B28.endif, label %B108.i.i
 
 B108.i.i:
-  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i ], [ %.13.i.i.i, %B6 ]
+  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i ], [ %.13.i.i.i, %B28 ]
   %lsr.iv = add i64 %lsr.iv.in, 1
   %.74.i.i = uitofp nneg i64 %lsr.iv to double
-  %.75.i.i = fmul double %.38.i, %.74.i.i
+  %.75.i.i = fmul double %.11, %.74.i.i
   %.77.i.i = fadd double %"$phi52.0.2.0.i.i", %.75.i.i
   %.79.i.i = fcmp ugt double %.77.i.i, %.8.i
-  br i1 %.79.i.i, label %B6.endif.endif, label %B108.i.i
-
-B136:
-  %.85 = load double, ptr %.158, align 8
-  %.89 = load double, ptr %sunkaddr, align 8
-  %.90 = fcmp olt double %.85, %.89
-  br i1 %.90, label %common.ret, label %B182
+  br i1 %.79.i.i, label %B28.endif, label %B108.i.i
 
 common.ret:
-  %.sink = phi i64 [ 1, %B204 ], [ 1, %B182 ], [ -1, %B136 ], [ %.73, %B6.endif.endif ], [ %.132, %B336 ], [ 0, %B348 ], [ -1, %B384.endif.endif.endif ]
+  %.sink = phi i64 [ 1, %B348 ], [ 1, %B326 ], [ -1, %B280 ], [ %code.2.1, %B480 ], [ -1, %B108.endif ], [ 0, %B492 ], [ -1, %B550.endif.endif.endif ]
   store i64 %.sink, ptr %retptr, align 8
   ret i32 0
 
-B182:
-  %.97 = getelementptr i8, ptr %arg.r, i64 64
-  %.98 = load i64, ptr %.97, align 8
-  %.99.not = icmp eq i64 %.98, 0
-  br i1 %.99.not, label %common.ret, label %B204
+B280:
+  %.150 = load double, ptr %sunkaddr23, align 8
+  %.154 = load double, ptr %sunkaddr, align 8
+  %.155 = fcmp olt double %.150, %.154
+  br i1 %.155, label %common.ret, label %B326
 
-B204:
-  %.106 = getelementptr i8, ptr %arg.r, i64 664
-  %.107 = load i64, ptr %.106, align 8
-  %.108 = inttoptr i64 %.107 to ptr
-  %.110 = getelementptr i8, ptr %arg.r, i64 672
-  %.111 = load i64, ptr %.110, align 8
-  %.112 = inttoptr i64 %.111 to ptr
-  %.114 = tail call ptr @node(ptr nonnull %arg.r, double %.85, ptr %.108, ptr %.112)
-  br label %common.ret
-
-B336:
-  %.132 = tail call i64 @land_and_note(ptr nonnull %arg.r)
-  %.137.not = icmp eq i64 %.132, 0
-  br i1 %.137.not, label %B348, label %common.ret
+B326:
+  %.162 = getelementptr i8, ptr %arg.r, i64 64
+  %.163 = load i64, ptr %.162, align 8
+  %.164.not = icmp eq i64 %.163, 0
+  br i1 %.164.not, label %common.ret, label %B348
 
 B348:
-  %.141 = load i64, ptr %sunkaddr23, align 8
-  %.144 = load i64, ptr %sunkaddr24, align 8
-  %.145 = icmp eq i64 %.141, %.144
-  br i1 %.145, label %common.ret, label %B384.endif.endif.endif
+  %.171 = getelementptr i8, ptr %arg.r, i64 688
+  %.172 = load i64, ptr %.171, align 8
+  %.173 = inttoptr i64 %.172 to ptr
+  %.175 = getelementptr i8, ptr %arg.r, i64 696
+  %.176 = load i64, ptr %.175, align 8
+  %.177 = inttoptr i64 %.176 to ptr
+  %.179 = tail call ptr @node(ptr nonnull %arg.r, double %.150, ptr %.173, ptr %.177)
+  br label %common.ret
 
-B6.endif.endif:
-  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B6 ], [ %.77.i.i, %B108.i.i ]
-  %.12.i = fcmp olt double %.94.pre-phi.i.i, %.11
-  %.13.i = select i1 %.12.i, double %.94.pre-phi.i.i, double %.11
-  store double %.13.i, ptr %sunkaddr25, align 8
-  %.73 = tail call i64 @go_on(ptr nonnull %arg.r)
-  switch i64 %.73, label %common.ret [
-    i64 0, label %B136
-    i64 9, label %B336
+B450:
+  %.197 = tail call i64 @land_and_note(ptr nonnull %arg.r)
+  br label %B480
+
+B480:
+  %code.2.1 = phi i64 [ %.197, %B450 ], [ %.126, %B108.endif ]
+  %.202.not = icmp eq i64 %code.2.1, 0
+  br i1 %.202.not, label %B492, label %common.ret
+
+B492:
+  %.206 = load i64, ptr %sunkaddr27, align 8
+  %.209 = load i64, ptr %sunkaddr28, align 8
+  %.210 = icmp eq i64 %.206, %.209
+  br i1 %.210, label %common.ret, label %B528
+
+B528:
+  %.224 = load double, ptr %.9, align 8
+  %.225 = fcmp ogt double %.224, 0.000000e+00
+  br i1 %.225, label %B550.endif.endif.endif, label %B6.backedge
+
+B6.backedge:
+  br label %B6
+
+B28.endif:
+  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B28 ], [ %.77.i.i, %B108.i.i ]
+  %.12.i = fcmp olt double %.94.pre-phi.i.i, %.17
+  %.13.i = select i1 %.12.i, double %.94.pre-phi.i.i, double %.17
+  br label %B108.endif
+
+B108.endif:
+  %"$phi108.0.2.1" = phi double [ %.13.i, %B28.endif ], [ %.17, %B6 ]
+  store double %"$phi108.0.2.1", ptr %sunkaddr30, align 8
+  %.96 = fcmp oeq double %.11, 0.000000e+00
+  %.15.i = zext i1 %.96 to i64
+  store i64 %.15.i, ptr %sunkaddr31, align 8
+  %.126 = tail call i64 @go_on(ptr nonnull %arg.r)
+  store i64 0, ptr %sunkaddr31, align 8
+  switch i64 %.126, label %B480 [
+    i64 10, label %common.ret
+    i64 0, label %B280
+    i64 9, label %B450
   ]
 
-B384.endif.endif.endif:
-  %.160 = load double, ptr %.158, align 8
-  %.9.i = load i64, ptr %.8.i.i, align 8, !noalias !240
+B550.endif.endif.endif:
+  %.231 = load double, ptr %sunkaddr23, align 8
+  %.9.i = load i64, ptr %sunkaddr24, align 8, !noalias !240
   %.10.i = icmp eq i64 %.9.i, 1
   %"$phi52.0.2.0.in.v.i" = select i1 %.10.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i"
   %"$phi52.0.2.0.i" = load double, ptr %"$phi52.0.2.0.in.i", align 8, !noalias !240
-  %.190 = load double, ptr %.188, align 8
-  %.7.i = fsub double %.160, %"$phi52.0.2.0.i"
-  %.11.i = fdiv double %.7.i, %.190
-  %.12.i16 = fadd double %.11.i, 5.000000e-01
-  %.13.i17 = tail call double @llvm.floor.f64(double %.12.i16)
-  %.14.i = fptosi double %.13.i17 to i64
-  %.15.i = sitofp i64 %.14.i to double
-  %.16.i = fmul double %.190, %.15.i
+  %.7.i = fsub double %.231, %"$phi52.0.2.0.i"
+  %.11.i = fdiv double %.7.i, %.224
+  %.12.i15 = fadd double %.11.i, 5.000000e-01
+  %.13.i16 = tail call double @llvm.floor.f64(double %.12.i15)
+  %.14.i = fptosi double %.13.i16 to i64
+  %.15.i17 = sitofp i64 %.14.i to double
+  %.16.i = fmul double %.224, %.15.i17
   %.17.i = fadd double %"$phi52.0.2.0.i", %.16.i
-  %.18.i = fcmp une double %.160, %.17.i
-  br i1 %.18.i, label %B6, label %common.ret
+  %.18.i = fcmp une double %.231, %.17.i
+  br i1 %.18.i, label %B6.backedge, label %common.ret
 }
 
 
@@ -8289,204 +8355,275 @@ entry:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels8is_plainB3v85B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels8is_plainB3v85B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr %arg.r) local_unnamed_addr #0 {
 B0:
-  %.157 = alloca double, align 8
-  %excinfo.4 = alloca ptr, align 8
+  %.110 = alloca double, align 8
+  %excinfo.1 = alloca ptr, align 8
+  store ptr null, ptr %excinfo.1, align 8
+  %.340 = alloca double, align 8
+  %excinfo.7 = alloca ptr, align 8
   %.8 = getelementptr i8, ptr %arg.r, i64 344
   %.10 = load double, ptr %.8, align 8
+  %.12 = getelementptr i8, ptr %arg.r, i64 224
+  %.14 = load double, ptr %.12, align 8
+  %.16 = getelementptr i8, ptr %arg.r, i64 392
+  %.17 = load i64, ptr %.16, align 8
+  %.18 = icmp eq i64 %.17, 1
+  br i1 %.18, label %B80, label %B80.thread
+
+B80:
+  %.34 = getelementptr i8, ptr %arg.r, i64 376
+  %.36 = load double, ptr %.34, align 8
+  %.37 = fcmp ogt double %.10, %.36
+  %.60 = getelementptr i8, ptr %arg.r, i64 216
+  %.62 = load double, ptr %.60, align 8
+  %.63 = fcmp oeq double %.62, 0.000000e+00
+  br i1 %.63, label %B108, label %B276
+
+B80.thread:
+  %.6031 = getelementptr i8, ptr %arg.r, i64 216
+  %.6232 = load double, ptr %.6031, align 8
+  %.6333 = fcmp oeq double %.6232, 0.000000e+00
+  br i1 %.6333, label %B108.thread, label %B276
+
+B108.thread:
+  %.7038 = getelementptr i8, ptr %arg.r, i64 488
+  %.7239 = load double, ptr %.7038, align 8
+  %.7440 = getelementptr i8, ptr %arg.r, i64 368
+  store double %.7239, ptr %.7440, align 8
+  br label %B260.endif
+
+B108:
+  %.70 = getelementptr i8, ptr %arg.r, i64 488
+  %.72 = load double, ptr %.70, align 8
+  %.74 = getelementptr i8, ptr %arg.r, i64 368
+  store double %.72, ptr %.74, align 8
+  br i1 %.37, label %B148, label %B260.endif
+
+B148:
+  %.91 = getelementptr i8, ptr %arg.r, i64 424
+  %.92 = load i64, ptr %.91, align 8
+  %.93 = icmp sgt i64 %.92, 0
+  br i1 %.93, label %B174, label %B260.endif
+
+B174:
+  %.105 = getelementptr i8, ptr %arg.r, i64 432
+  %.107 = load double, ptr %.105, align 8
+  store double 0.000000e+00, ptr %.110, align 8
+  %.114 = call i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr nonnull %.110, ptr nonnull %excinfo.1, ptr nonnull %arg.r)
+  %cond = icmp eq i32 %.114, 0
+  br i1 %cond, label %B174.endif.endif, label %B174.if.if, !prof !24
+
+B276:
+  %.574 = phi double [ %.6232, %B80.thread ], [ %.62, %B80 ]
+  %"$phi80.2.2.035" = phi i1 [ false, %B80.thread ], [ %.37, %B80 ]
   %.8.i.i = getelementptr i8, ptr %arg.r, i64 152
   %.9.i.i = load i64, ptr %.8.i.i, align 8, !noalias !243
   %.10.i.i = icmp eq i64 %.9.i.i, 1
   %"$phi52.0.2.0.in.v.i.i" = select i1 %.10.i.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i"
   %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !243
-  %.36.i = getelementptr i8, ptr %arg.r, i64 216
-  %.38.i = load double, ptr %.36.i, align 8, !noalias !248
   %.15.i.i = fsub double %.10, %"$phi52.0.2.0.i.i"
-  %.20.i.i = fdiv double %.15.i.i, %.38.i
+  %.20.i.i = fdiv double %.15.i.i, %.574
   %.21.i.i = tail call double @llvm.floor.f64(double %.20.i.i)
   %.22.i.i = fptosi double %.21.i.i to i64
   %.13.i.i.i = tail call i64 @llvm.smax.i64(i64 %.22.i.i, i64 0)
   %.60.i.i = uitofp nneg i64 %.13.i.i.i to double
-  %.61.i.i = fmul double %.38.i, %.60.i.i
+  %.61.i.i = fmul double %.574, %.60.i.i
   %.63.i.i = fadd double %"$phi52.0.2.0.i.i", %.61.i.i
   %.65.i.i = fcmp ugt double %.63.i.i, %.10
-  br i1 %.65.i.i, label %B0.endif, label %B108.i.i
+  br i1 %.65.i.i, label %B276.endif, label %B108.i.i
 
 B108.i.i:
-  %lsr.iv83.in = phi i64 [ %lsr.iv83, %B108.i.i ], [ %.13.i.i.i, %B0 ]
-  %lsr.iv83 = add i64 %lsr.iv83.in, 1
-  %.74.i.i = uitofp nneg i64 %lsr.iv83 to double
-  %.75.i.i = fmul double %.38.i, %.74.i.i
+  %lsr.iv95.in = phi i64 [ %lsr.iv95, %B108.i.i ], [ %.13.i.i.i, %B276 ]
+  %lsr.iv95 = add i64 %lsr.iv95.in, 1
+  %.74.i.i = uitofp nneg i64 %lsr.iv95 to double
+  %.75.i.i = fmul double %.574, %.74.i.i
   %.77.i.i = fadd double %"$phi52.0.2.0.i.i", %.75.i.i
   %.79.i.i = fcmp ugt double %.77.i.i, %.10
-  br i1 %.79.i.i, label %B0.endif, label %B108.i.i
+  br i1 %.79.i.i, label %B276.endif, label %B108.i.i
 
-B84:
-  %.61 = getelementptr i8, ptr %arg.r, i64 376
-  %.63 = load double, ptr %.61, align 8
-  %.65 = fcmp ogt double %.10, %.63
-  br i1 %.65, label %B106.endif, label %B242
+B384:
+  %.328 = getelementptr i8, ptr %arg.r, i64 488
+  %.330 = load double, ptr %.328, align 8
+  %.332 = fcmp ugt double %.94.pre-phi.i.i, %.330
+  br i1 %.332, label %B446, label %B406
 
-B180:
-  %.145 = getelementptr i8, ptr %arg.r, i64 464
-  %.147 = load double, ptr %.145, align 8
-  %.149 = fcmp ugt double %.94.pre-phi.i.i, %.147
-  br i1 %.149, label %B242, label %B202
-
-B202:
-  store double 0.000000e+00, ptr %.157, align 8
-  %.161 = call i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.157, ptr nonnull %excinfo.4, ptr nonnull %arg.r, double %.10, double %.94.pre-phi.i.i)
-  switch i32 %.161, label %B202.if.if [
-    i32 -2, label %B202.endif
-    i32 0, label %B202.endif
+B406:
+  store double 0.000000e+00, ptr %.340, align 8
+  %.344 = call i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr nonnull %.340, ptr nonnull %excinfo.7, ptr nonnull %arg.r, double %.10, double %.94.pre-phi.i.i)
+  switch i32 %.344, label %B406.if.if [
+    i32 -2, label %B406.endif
+    i32 0, label %B406.endif
   ], !prof !8
 
-B242:
-  %"$phi242.0.3.0" = phi i1 [ %.182, %B202.endif ], [ false, %B180 ], [ false, %B84 ], [ false, %B0.endif ]
-  %.193 = fcmp oeq double %.42, 0.000000e+00
-  br i1 %.193, label %B256, label %B368
+B446:
+  %"$phi446.0.3.0" = phi i1 [ %.365, %B406.endif ], [ false, %B384 ], [ false, %B276.endif ]
+  %.376 = fcmp oeq double %.14, 0.000000e+00
+  br i1 %.376, label %B460, label %B572
 
-B242.thread:
-  %.19320 = fcmp oeq double %.42, 0.000000e+00
-  br i1 %.19320, label %B352.endif, label %B368
+B446.thread:
+  %.37626 = fcmp oeq double %.14, 0.000000e+00
+  br i1 %.37626, label %B556.endif, label %B572
 
-B256:
-  br i1 %"$phi242.0.3.0", label %B272.endif.endif, label %B352.endif
+B460:
+  br i1 %"$phi446.0.3.0", label %B476.endif.endif, label %B556.endif
 
-B368:
-  %"$phi242.0.3.022" = phi i1 [ false, %B242.thread ], [ %"$phi242.0.3.0", %B242 ]
-  %.39.i = fadd double %"$phi52.0.2.0.i.i", %.42
-  %.15.i.i16 = fsub double %.10, %.39.i
-  %.20.i.i17 = fdiv double %.15.i.i16, %.38.i
-  %.21.i.i18 = tail call double @llvm.floor.f64(double %.20.i.i17)
-  %.22.i.i19 = fptosi double %.21.i.i18 to i64
-  %.13.i.i.i20 = tail call i64 @llvm.smax.i64(i64 %.22.i.i19, i64 0)
-  %.60.i.i21 = uitofp nneg i64 %.13.i.i.i20 to double
-  %.61.i.i22 = fmul double %.38.i, %.60.i.i21
-  %.63.i.i23 = fadd double %.39.i, %.61.i.i22
-  %.65.i.i24 = fcmp ugt double %.63.i.i23, %.10
-  br i1 %.65.i.i24, label %B368.endif, label %B108.i.i25
+B572:
+  %"$phi446.0.3.028" = phi i1 [ false, %B446.thread ], [ %"$phi446.0.3.0", %B446 ]
+  %.39.i = fadd double %.14, %"$phi52.0.2.0.i.i"
+  %.15.i.i18 = fsub double %.10, %.39.i
+  %.20.i.i19 = fdiv double %.15.i.i18, %.574
+  %.21.i.i20 = tail call double @llvm.floor.f64(double %.20.i.i19)
+  %.22.i.i21 = fptosi double %.21.i.i20 to i64
+  %.13.i.i.i22 = tail call i64 @llvm.smax.i64(i64 %.22.i.i21, i64 0)
+  %.60.i.i23 = uitofp nneg i64 %.13.i.i.i22 to double
+  %.61.i.i24 = fmul double %.574, %.60.i.i23
+  %.63.i.i25 = fadd double %.39.i, %.61.i.i24
+  %.65.i.i26 = fcmp ugt double %.63.i.i25, %.10
+  br i1 %.65.i.i26, label %B572.endif, label %B108.i.i27
 
-B108.i.i25:
-  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i25 ], [ %.13.i.i.i20, %B368 ]
+B108.i.i27:
+  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i27 ], [ %.13.i.i.i22, %B572 ]
   %lsr.iv = add i64 %lsr.iv.in, 1
-  %.74.i.i28 = uitofp nneg i64 %lsr.iv to double
-  %.75.i.i29 = fmul double %.38.i, %.74.i.i28
-  %.77.i.i30 = fadd double %.39.i, %.75.i.i29
-  %.79.i.i31 = fcmp ugt double %.77.i.i30, %.10
-  br i1 %.79.i.i31, label %B368.endif, label %B108.i.i25
+  %.74.i.i30 = uitofp nneg i64 %lsr.iv to double
+  %.75.i.i31 = fmul double %.574, %.74.i.i30
+  %.77.i.i32 = fadd double %.39.i, %.75.i.i31
+  %.79.i.i33 = fcmp ugt double %.77.i.i32, %.10
+  br i1 %.79.i.i33, label %B572.endif, label %B108.i.i27
 
-B494:
-  %.7.i33 = fsub double %.94.pre-phi.i.i, %.94.pre-phi.i.i32
-  %.8.i34 = getelementptr i8, ptr %arg.r, i64 248
-  %.10.i35 = load double, ptr %.8.i34, align 8, !noalias !249
-  %.14.i36 = fdiv double %.7.i33, %.10.i35
-  %.15.i37 = fadd double %.14.i36, -1.000000e-09
-  %.23.le.i38 = tail call double @llvm.ceil.f64(double %.15.i37)
-  %.12.i.i39 = fcmp ogt double %.23.le.i38, 1.000000e+00
-  %.13.i.i40 = select i1 %.12.i.i39, double %.23.le.i38, double 1.000000e+00
-  %.5.i.i41 = fptosi double %.13.i.i40 to i64
-  %.7.i65 = fsub double %.38.i, %.42
-  %.14.i68 = fdiv double %.7.i65, %.10.i35
-  %.15.i69 = fadd double %.14.i68, -1.000000e-09
-  %.23.le.i70 = tail call double @llvm.ceil.f64(double %.15.i69)
-  %.12.i.i71 = fcmp ogt double %.23.le.i70, 1.000000e+00
-  %.13.i.i72 = select i1 %.12.i.i71, double %.23.le.i70, double 1.000000e+00
-  %.5.i.i73 = fptosi double %.13.i.i72 to i64
-  %.418 = icmp eq i64 %.5.i.i41, %.5.i.i73
-  br i1 %.418, label %B512.endif.endif, label %B582.endif
-
-B0.endif:
-  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B0 ], [ %.77.i.i, %B108.i.i ]
-  %.40 = getelementptr i8, ptr %arg.r, i64 224
-  %.42 = load double, ptr %.40, align 8
-  %.53 = getelementptr i8, ptr %arg.r, i64 392
-  %.54 = load i64, ptr %.53, align 8
-  %.55 = icmp eq i64 %.54, 1
-  br i1 %.55, label %B84, label %B242
+B698:
+  %.7.i35 = fsub double %.94.pre-phi.i.i, %.94.pre-phi.i.i34
+  %.8.i36 = getelementptr i8, ptr %arg.r, i64 248
+  %.10.i37 = load double, ptr %.8.i36, align 8, !noalias !248
+  %.14.i38 = fdiv double %.7.i35, %.10.i37
+  %.15.i39 = fadd double %.14.i38, -1.000000e-09
+  %.23.le.i40 = tail call double @llvm.ceil.f64(double %.15.i39)
+  %.12.i.i41 = fcmp ogt double %.23.le.i40, 1.000000e+00
+  %.13.i.i42 = select i1 %.12.i.i41, double %.23.le.i40, double 1.000000e+00
+  %.5.i.i43 = fptosi double %.13.i.i42 to i64
+  %.7.i76 = fsub double %.574, %.14
+  %.14.i79 = fdiv double %.7.i76, %.10.i37
+  %.15.i80 = fadd double %.14.i79, -1.000000e-09
+  %.23.le.i81 = tail call double @llvm.ceil.f64(double %.15.i80)
+  %.12.i.i82 = fcmp ogt double %.23.le.i81, 1.000000e+00
+  %.13.i.i83 = select i1 %.12.i.i82, double %.23.le.i81, double 1.000000e+00
+  %.5.i.i84 = fptosi double %.13.i.i83 to i64
+  %.601 = icmp eq i64 %.5.i.i43, %.5.i.i84
+  br i1 %.601, label %B716.endif.endif, label %B786.endif
 
 common.ret:
-  %common.ret.op = phi i32 [ %.161, %B202.if.if ], [ 0, %B582.endif ], [ 0, %B352.endif ]
+  %common.ret.op = phi i32 [ %.114, %B174.if.if ], [ %.344, %B406.if.if ], [ 0, %B260.endif ], [ 0, %B786.endif ], [ 0, %B556.endif ]
   ret i32 %common.ret.op
 
-B106.endif:
+B174.if.if:
+  %.122 = icmp sgt i32 %.114, 0
+  %.115 = load ptr, ptr %excinfo.1, align 8
+  %.123 = select i1 %.122, ptr %.115, ptr undef
+  store ptr %.123, ptr %excinfo, align 8
+  br label %common.ret
+
+B174.endif.endif:
+  %.124 = load double, ptr %.110, align 8
+  %.7.i55 = fsub double %.124, %.107
+  %.8.i56 = getelementptr i8, ptr %arg.r, i64 248
+  %.10.i57 = load double, ptr %.8.i56, align 8, !noalias !251
+  %.14.i58 = fdiv double %.7.i55, %.10.i57
+  %.15.i59 = fadd double %.14.i58, -1.000000e-09
+  %.23.le.i60 = tail call double @llvm.ceil.f64(double %.15.i59)
+  %.12.i.i61 = fcmp ogt double %.23.le.i60, 1.000000e+00
+  %.13.i.i62 = select i1 %.12.i.i61, double %.23.le.i60, double 1.000000e+00
+  %.5.i.i63 = fptosi double %.13.i.i62 to i64
+  %.163 = add nsw i64 %.5.i.i63, -1
+  %.165 = icmp slt i64 %.92, %.163
+  %0 = zext i1 %.165 to i64
+  br label %B260.endif
+
+B260.endif:
+  %"$phi260.2.3.0" = phi i64 [ %0, %B174.endif.endif ], [ 0, %B108 ], [ 0, %B148 ], [ 0, %B108.thread ]
+  store i64 %"$phi260.2.3.0", ptr %retptr, align 8
+  br label %common.ret
+
+B276.endif:
+  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B276 ], [ %.77.i.i, %B108.i.i ]
+  br i1 %"$phi80.2.2.035", label %B310.endif, label %B446
+
+B310.endif:
   %.12.i = fadd double %.20.i.i, 5.000000e-01
   %.13.i = tail call double @llvm.floor.f64(double %.12.i)
-  %.14.i54 = fptosi double %.13.i to i64
-  %.15.i55 = sitofp i64 %.14.i54 to double
-  %.16.i = fmul double %.38.i, %.15.i55
+  %.14.i65 = fptosi double %.13.i to i64
+  %.15.i66 = sitofp i64 %.14.i65 to double
+  %.16.i = fmul double %.574, %.15.i66
   %.17.i = fadd double %"$phi52.0.2.0.i.i", %.16.i
   %.18.i = fcmp une double %.10, %.17.i
-  br i1 %.18.i, label %B242.thread, label %B180
+  br i1 %.18.i, label %B446.thread, label %B384
 
-B202.endif:
-  %.171 = load double, ptr %.157, align 8
-  %.182 = fcmp oeq double %.171, %.94.pre-phi.i.i
-  br label %B242
+B406.endif:
+  %.354 = load double, ptr %.340, align 8
+  %.365 = fcmp oeq double %.354, %.94.pre-phi.i.i
+  br label %B446
 
-B202.if.if:
+B406.if.if:
   store ptr null, ptr %excinfo, align 8
   br label %common.ret
 
-B272.endif.endif:
-  %.7.i = fsub double %.94.pre-phi.i.i, %.10
-  %.8.i2 = getelementptr i8, ptr %arg.r, i64 248
-  %.10.i3 = load double, ptr %.8.i2, align 8, !noalias !252
-  %.14.i = fdiv double %.7.i, %.10.i3
-  %.15.i = fadd double %.14.i, -1.000000e-09
-  %.23.le.i = tail call double @llvm.ceil.f64(double %.15.i)
+B476.endif.endif:
+  %.7.i2 = fsub double %.94.pre-phi.i.i, %.10
+  %.8.i3 = getelementptr i8, ptr %arg.r, i64 248
+  %.10.i4 = load double, ptr %.8.i3, align 8, !noalias !254
+  %.14.i = fdiv double %.7.i2, %.10.i4
+  %.15.i5 = fadd double %.14.i, -1.000000e-09
+  %.23.le.i = tail call double @llvm.ceil.f64(double %.15.i5)
   %.12.i.i = fcmp ogt double %.23.le.i, 1.000000e+00
   %.13.i.i = select i1 %.12.i.i, double %.23.le.i, double 1.000000e+00
   %.5.i.i = fptosi double %.13.i.i to i64
-  %.14.i59 = fdiv double %.38.i, %.10.i3
-  %.15.i60 = fadd double %.14.i59, -1.000000e-09
-  %.23.le.i61 = tail call double @llvm.ceil.f64(double %.15.i60)
-  %.12.i.i62 = fcmp ogt double %.23.le.i61, 1.000000e+00
-  %.13.i.i63 = select i1 %.12.i.i62, double %.23.le.i61, double 1.000000e+00
-  %.5.i.i64 = fptosi double %.13.i.i63 to i64
-  %.272 = icmp eq i64 %.5.i.i, %.5.i.i64
-  %0 = zext i1 %.272 to i64
-  br label %B352.endif
+  %.14.i70 = fdiv double %.574, %.10.i4
+  %.15.i71 = fadd double %.14.i70, -1.000000e-09
+  %.23.le.i72 = tail call double @llvm.ceil.f64(double %.15.i71)
+  %.12.i.i73 = fcmp ogt double %.23.le.i72, 1.000000e+00
+  %.13.i.i74 = select i1 %.12.i.i73, double %.23.le.i72, double 1.000000e+00
+  %.5.i.i75 = fptosi double %.13.i.i74 to i64
+  %.455 = icmp eq i64 %.5.i.i, %.5.i.i75
+  %1 = zext i1 %.455 to i64
+  br label %B556.endif
 
-B352.endif:
-  %"$phi352.2.2.0" = phi i64 [ %0, %B272.endif.endif ], [ 0, %B256 ], [ 0, %B242.thread ]
-  store i64 %"$phi352.2.2.0", ptr %retptr, align 8
+B556.endif:
+  %"$phi556.2.2.0" = phi i64 [ %1, %B476.endif.endif ], [ 0, %B460 ], [ 0, %B446.thread ]
+  store i64 %"$phi556.2.2.0", ptr %retptr, align 8
   br label %common.ret
 
-B368.endif:
-  %.94.pre-phi.i.i32 = phi double [ %.63.i.i23, %B368 ], [ %.77.i.i30, %B108.i.i25 ]
-  %.353 = fcmp olt double %.94.pre-phi.i.i32, %.94.pre-phi.i.i
-  %or.cond = and i1 %"$phi242.0.3.022", %.353
-  br i1 %or.cond, label %B494, label %B582.endif
+B572.endif:
+  %.94.pre-phi.i.i34 = phi double [ %.63.i.i25, %B572 ], [ %.77.i.i32, %B108.i.i27 ]
+  %.536 = fcmp olt double %.94.pre-phi.i.i34, %.94.pre-phi.i.i
+  %or.cond = and i1 %"$phi446.0.3.028", %.536
+  br i1 %or.cond, label %B698, label %B786.endif
 
-B512.endif.endif:
-  %.7.i42 = fsub double %.94.pre-phi.i.i32, %.10
-  %.14.i45 = fdiv double %.7.i42, %.10.i35
-  %.15.i46 = fadd double %.14.i45, -1.000000e-09
-  %.23.le.i47 = tail call double @llvm.ceil.f64(double %.15.i46)
-  %.12.i.i48 = fcmp ogt double %.23.le.i47, 1.000000e+00
-  %.13.i.i49 = select i1 %.12.i.i48, double %.23.le.i47, double 1.000000e+00
-  %.5.i.i50 = fptosi double %.13.i.i49 to i64
-  %.14.i77 = fdiv double %.42, %.10.i35
-  %.15.i78 = fadd double %.14.i77, -1.000000e-09
-  %.23.le.i79 = tail call double @llvm.ceil.f64(double %.15.i78)
-  %.12.i.i80 = fcmp ogt double %.23.le.i79, 1.000000e+00
-  %.13.i.i81 = select i1 %.12.i.i80, double %.23.le.i79, double 1.000000e+00
-  %.5.i.i82 = fptosi double %.13.i.i81 to i64
-  %.497 = icmp eq i64 %.5.i.i50, %.5.i.i82
-  %1 = zext i1 %.497 to i64
-  br label %B582.endif
+B716.endif.endif:
+  %.7.i44 = fsub double %.94.pre-phi.i.i34, %.10
+  %.14.i47 = fdiv double %.7.i44, %.10.i37
+  %.15.i48 = fadd double %.14.i47, -1.000000e-09
+  %.23.le.i49 = tail call double @llvm.ceil.f64(double %.15.i48)
+  %.12.i.i50 = fcmp ogt double %.23.le.i49, 1.000000e+00
+  %.13.i.i51 = select i1 %.12.i.i50, double %.23.le.i49, double 1.000000e+00
+  %.5.i.i52 = fptosi double %.13.i.i51 to i64
+  %.14.i88 = fdiv double %.14, %.10.i37
+  %.15.i89 = fadd double %.14.i88, -1.000000e-09
+  %.23.le.i90 = tail call double @llvm.ceil.f64(double %.15.i89)
+  %.12.i.i91 = fcmp ogt double %.23.le.i90, 1.000000e+00
+  %.13.i.i92 = select i1 %.12.i.i91, double %.23.le.i90, double 1.000000e+00
+  %.5.i.i93 = fptosi double %.13.i.i92 to i64
+  %.680 = icmp eq i64 %.5.i.i52, %.5.i.i93
+  %2 = zext i1 %.680 to i64
+  br label %B786.endif
 
-B582.endif:
-  %"$phi582.2.2.0" = phi i64 [ %1, %B512.endif.endif ], [ 0, %B494 ], [ 0, %B368.endif ]
-  store i64 %"$phi582.2.2.0", ptr %retptr, align 8
+B786.endif:
+  %"$phi786.2.2.0" = phi i64 [ %2, %B716.endif.endif ], [ 0, %B698 ], [ 0, %B572.endif ]
+  store i64 %"$phi786.2.2.0", ptr %retptr, align 8
   br label %common.ret
 }
 
 
-define i64 @is_plain(ptr readonly %.1) local_unnamed_addr #0 {
+define i64 @is_plain(ptr %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
@@ -8518,7 +8655,7 @@ B36.lr.ph:
 
 B36.lr.ph.new:
   %1 = and i64 %arg.size, 9223372036854775800
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 536
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 560
   br label %B36
 
 B36:
@@ -8591,7 +8728,7 @@ B84.loopexit.unr-lcssa:
 
 B36.epil.preheader:
   %.1044042.epil.init = phi i64 [ 0, %B36.lr.ph ], [ %11, %B84.loopexit.unr-lcssa ]
-  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 536
+  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 560
   br label %B36.epil
 
 B36.epil:
@@ -8607,7 +8744,7 @@ B36.epil:
   store double %.138.epil, ptr %gep.epil, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B84, label %B36.epil, !llvm.loop !255
+  br i1 %epil.iter.cmp.not, label %B84, label %B36.epil, !llvm.loop !257
 
 B84:
   store ptr null, ptr %retptr, align 8
@@ -8638,7 +8775,7 @@ B36.lr.ph:
 
 B36.lr.ph.new:
   %1 = and i64 %arg.size, 9223372036854775800
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 536
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 560
   br label %B36
 
 B36:
@@ -8711,7 +8848,7 @@ B84.loopexit.unr-lcssa:
 
 B36.epil.preheader:
   %.1044042.epil.init = phi i64 [ 0, %B36.lr.ph ], [ %11, %B84.loopexit.unr-lcssa ]
-  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 536
+  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 560
   br label %B36.epil
 
 B36.epil:
@@ -8727,7 +8864,7 @@ B36.epil:
   store double %.144.epil, ptr %scevgep, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B84, label %B36.epil, !llvm.loop !256
+  br i1 %epil.iter.cmp.not, label %B84, label %B36.epil, !llvm.loop !258
 
 B84:
   store ptr null, ptr %retptr, align 8
@@ -8783,35 +8920,49 @@ entry:
 
 define i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.r, ptr readonly %arg.block) local_unnamed_addr #6 {
 common.ret:
+  %.7.i7 = alloca ptr, align 8
   %.7.i3 = alloca ptr, align 8
   %.7.i1 = alloca ptr, align 8
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !257
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !259
   %.9.i = inttoptr i64 %.8.i to ptr
-  %.11.i = load i64, ptr %.9.i, align 8, !noalias !257
-  %.12.i = getelementptr i8, ptr %arg.s, i64 536
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !257
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !259
+  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !259
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
-  %.35 = getelementptr i8, ptr %arg.r, i64 664
+  %.35 = getelementptr i8, ptr %arg.r, i64 688
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
   %.38 = getelementptr i8, ptr %arg.r, i64 80
   %.39 = load i64, ptr %.38, align 8
   %.11.i2 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i, ptr %.37, i64 %.39) #0
-  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !260
+  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !262
   %.9.i3 = inttoptr i64 %.8.i2 to ptr
   %.10.i = getelementptr i8, ptr %.9.i3, i64 72
-  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !260
-  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !260
+  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !262
+  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !262
   %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
   %.15.i8 = getelementptr double, ptr %arg.block, i64 %.14.i7
-  %.66 = getelementptr i8, ptr %arg.r, i64 640
+  %.66 = getelementptr i8, ptr %arg.r, i64 664
   %.67 = load i64, ptr %.66, align 8
   %.68 = inttoptr i64 %.67 to ptr
   %.69 = getelementptr i8, ptr %arg.r, i64 136
   %.70 = load i64, ptr %.69, align 8
   %.11.i5 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i3, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i8, ptr %.68, i64 %.70) #0
+  %.8.i10 = load i64, ptr %.7.i, align 8, !noalias !265
+  %.9.i11 = inttoptr i64 %.8.i10 to ptr
+  %.10.i12 = getelementptr i8, ptr %.9.i11, i64 88
+  %.11.i13 = load i64, ptr %.10.i12, align 8, !noalias !265
+  %.13.i15 = load i64, ptr %.12.i, align 8, !noalias !265
+  %.14.i16 = mul nsw i64 %.13.i15, %.11.i13
+  %.15.i17 = getelementptr double, ptr %arg.block, i64 %.14.i16
+  %.97 = getelementptr i8, ptr %arg.r, i64 696
+  %.98 = load i64, ptr %.97, align 8
+  %.99 = inttoptr i64 %.98 to ptr
+  %.100 = getelementptr i8, ptr %arg.r, i64 96
+  %.101 = load i64, ptr %.100, align 8
+  %.11.i8 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i7, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i17, ptr %.99, i64 %.101) #0
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
@@ -8826,47 +8977,78 @@ entry:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #7 {
+define i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #7 {
 B0:
+  %.17 = getelementptr i8, ptr %arg.r, i64 216
+  %.19 = load double, ptr %.17, align 8
+  %.20 = fcmp ogt double %.19, 0.000000e+00
+  br i1 %.20, label %B26, label %B56
+
+B26:
   %.6.i = getelementptr i8, ptr %arg.r, i64 344
-  %.8.i = load double, ptr %.6.i, align 8, !noalias !263
+  %.8.i = load double, ptr %.6.i, align 8, !noalias !268
   %.8.i.i = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i.i = load i64, ptr %.8.i.i, align 8, !noalias !266
+  %.9.i.i = load i64, ptr %.8.i.i, align 8, !noalias !271
   %.10.i.i = icmp eq i64 %.9.i.i, 1
   %"$phi52.0.2.0.in.v.i.i" = select i1 %.10.i.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i"
-  %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !266
-  %.36.i = getelementptr i8, ptr %arg.r, i64 216
-  %.38.i = load double, ptr %.36.i, align 8, !noalias !263
+  %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !271
   %.15.i.i = fsub double %.8.i, %"$phi52.0.2.0.i.i"
-  %.20.i.i = fdiv double %.15.i.i, %.38.i
+  %.20.i.i = fdiv double %.15.i.i, %.19
   %.21.i.i = tail call double @llvm.floor.f64(double %.20.i.i)
   %.22.i.i = fptosi double %.21.i.i to i64
   %.13.i.i.i = tail call i64 @llvm.smax.i64(i64 %.22.i.i, i64 0)
   %.60.i.i = uitofp nneg i64 %.13.i.i.i to double
-  %.61.i.i = fmul double %.38.i, %.60.i.i
+  %.61.i.i = fmul double %.19, %.60.i.i
   %.63.i.i = fadd double %"$phi52.0.2.0.i.i", %.61.i.i
   %.65.i.i = fcmp ugt double %.63.i.i, %.8.i
-  br i1 %.65.i.i, label %B0.endif, label %B108.i.i
+  br i1 %.65.i.i, label %B106, label %B108.i.i
 
 B108.i.i:
-  %lsr.iv47.in = phi i64 [ %lsr.iv47, %B108.i.i ], [ %.13.i.i.i, %B0 ]
-  %lsr.iv47 = add i64 %lsr.iv47.in, 1
-  %.74.i.i = uitofp nneg i64 %lsr.iv47 to double
-  %.75.i.i = fmul double %.38.i, %.74.i.i
+  %lsr.iv48.in = phi i64 [ %lsr.iv48, %B108.i.i ], [ %.13.i.i.i, %B26 ]
+  %lsr.iv48 = add i64 %lsr.iv48.in, 1
+  %.74.i.i = uitofp nneg i64 %lsr.iv48 to double
+  %.75.i.i = fmul double %.19, %.74.i.i
   %.77.i.i = fadd double %"$phi52.0.2.0.i.i", %.75.i.i
   %.79.i.i = fcmp ugt double %.77.i.i, %.8.i
-  br i1 %.79.i.i, label %B0.endif, label %B108.i.i
+  br i1 %.79.i.i, label %B106, label %B108.i.i
 
-B76:
-  %.8.i2 = load double, ptr %.6.i, align 8, !noalias !269
-  %.9.i.i4 = load i64, ptr %.8.i.i, align 8, !noalias !272
+B56:
+  %.55 = getelementptr i8, ptr %arg.r, i64 432
+  %.57 = load double, ptr %.55, align 8
+  %.59 = getelementptr i8, ptr %arg.r, i64 424
+  %.60 = load i64, ptr %.59, align 8
+  %.61 = add nsw i64 %.60, 1
+  %.63 = getelementptr i8, ptr %arg.r, i64 248
+  %.65 = load double, ptr %.63, align 8
+  %.66 = sitofp i64 %.61 to double
+  %.67 = fmul double %.65, %.66
+  %.68 = fadd double %.57, %.67
+  %.79.phi.trans.insert = getelementptr i8, ptr %arg.r, i64 344
+  %.81.pre = load double, ptr %.79.phi.trans.insert, align 8
+  br label %B106
+
+B106:
+  %.81 = phi double [ %.81.pre, %B56 ], [ %.8.i, %B26 ], [ %.8.i, %B108.i.i ]
+  %"$phi106.0.2.0" = phi double [ %.68, %B56 ], [ %.63.i.i, %B26 ], [ %.77.i.i, %B108.i.i ]
+  %.84 = getelementptr double, ptr %arg.block, i64 %arg.lane
+  store double %.81, ptr %.84, align 8
+  %.87 = getelementptr i8, ptr %arg.r, i64 224
+  %.89 = load double, ptr %.87, align 8
+  %.90 = fcmp ogt double %.89, 0.000000e+00
+  br i1 %.90, label %B150, label %common.ret
+
+B150:
+  %.79 = getelementptr i8, ptr %arg.r, i64 344
+  %.8.i2 = load double, ptr %.79, align 8, !noalias !274
+  %.8.i.i3 = getelementptr i8, ptr %arg.r, i64 152
+  %.9.i.i4 = load i64, ptr %.8.i.i3, align 8, !noalias !277
   %.10.i.i5 = icmp eq i64 %.9.i.i4, 1
   %"$phi52.0.2.0.in.v.i.i6" = select i1 %.10.i.i5, i64 376, i64 232
   %"$phi52.0.2.0.in.i.i7" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i6"
-  %"$phi52.0.2.0.i.i8" = load double, ptr %"$phi52.0.2.0.in.i.i7", align 8, !noalias !272
-  %.39.i = fadd double %.58, %"$phi52.0.2.0.i.i8"
-  %.42.i = load double, ptr %.36.i, align 8, !noalias !269
+  %"$phi52.0.2.0.i.i8" = load double, ptr %"$phi52.0.2.0.in.i.i7", align 8, !noalias !277
+  %.39.i = fadd double %.89, %"$phi52.0.2.0.i.i8"
+  %.42.i = load double, ptr %.17, align 8, !noalias !274
   %.15.i.i11 = fsub double %.8.i2, %.39.i
   %.20.i.i12 = fdiv double %.15.i.i11, %.42.i
   %.21.i.i13 = tail call double @llvm.floor.f64(double %.20.i.i12)
@@ -8879,7 +9061,7 @@ B76:
   br i1 %.65.i.i19, label %common.ret, label %B108.i.i20
 
 B108.i.i20:
-  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i20 ], [ %.13.i.i.i15, %B76 ]
+  %lsr.iv.in = phi i64 [ %lsr.iv, %B108.i.i20 ], [ %.13.i.i.i15, %B150 ]
   %lsr.iv = add i64 %lsr.iv.in, 1
   %.74.i.i23 = uitofp nneg i64 %lsr.iv to double
   %.75.i.i24 = fmul double %.42.i, %.74.i.i23
@@ -8887,50 +9069,41 @@ B108.i.i20:
   %.79.i.i26 = fcmp ugt double %.77.i.i25, %.8.i2
   br i1 %.79.i.i26, label %common.ret, label %B108.i.i20
 
-B0.endif:
-  %.94.pre-phi.i.i = phi double [ %.63.i.i, %B0 ], [ %.77.i.i, %B108.i.i ]
-  %.53 = getelementptr double, ptr %arg.block, i64 %arg.lane
-  store double %.8.i, ptr %.53, align 8
-  %.56 = getelementptr i8, ptr %arg.r, i64 224
-  %.58 = load double, ptr %.56, align 8
-  %.59 = fcmp ogt double %.58, 0.000000e+00
-  br i1 %.59, label %B76, label %common.ret
-
 common.ret:
-  %"$phi108.0.2.0" = phi double [ %.94.pre-phi.i.i, %B0.endif ], [ %.63.i.i18, %B76 ], [ %.77.i.i25, %B108.i.i20 ]
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !275
+  %"$phi182.0.2.0" = phi double [ %"$phi106.0.2.0", %B106 ], [ %.63.i.i18, %B150 ], [ %.77.i.i25, %B108.i.i20 ]
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !280
   %.9.i = inttoptr i64 %.8.i28 to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 56
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !275
-  %.12.i = getelementptr i8, ptr %arg.s, i64 536
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !275
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !280
+  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !280
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
-  %.124 = getelementptr double, ptr %.15.i, i64 %arg.lane
-  store double %"$phi108.0.2.0", ptr %.124, align 8
-  %.8.i30 = load i64, ptr %.7.i, align 8, !noalias !278
+  %.155 = getelementptr double, ptr %.15.i, i64 %arg.lane
+  store double %"$phi182.0.2.0", ptr %.155, align 8
+  %.8.i30 = load i64, ptr %.7.i, align 8, !noalias !283
   %.9.i31 = inttoptr i64 %.8.i30 to ptr
   %.10.i32 = getelementptr i8, ptr %.9.i31, i64 64
-  %.11.i33 = load i64, ptr %.10.i32, align 8, !noalias !278
-  %.13.i35 = load i64, ptr %.12.i, align 8, !noalias !278
+  %.11.i33 = load i64, ptr %.10.i32, align 8, !noalias !283
+  %.13.i35 = load i64, ptr %.12.i, align 8, !noalias !283
   %.14.i36 = mul nsw i64 %.13.i35, %.11.i33
   %.15.i37 = getelementptr double, ptr %arg.block, i64 %.14.i36
-  %.157 = getelementptr double, ptr %.15.i37, i64 %arg.lane
-  store double %.94.pre-phi.i.i, ptr %.157, align 8
-  %.8.i39 = load i64, ptr %.7.i, align 8, !noalias !281
+  %.188 = getelementptr double, ptr %.15.i37, i64 %arg.lane
+  store double %"$phi106.0.2.0", ptr %.188, align 8
+  %.8.i39 = load i64, ptr %.7.i, align 8, !noalias !286
   %.9.i40 = inttoptr i64 %.8.i39 to ptr
   %.10.i41 = getelementptr i8, ptr %.9.i40, i64 80
-  %.11.i42 = load i64, ptr %.10.i41, align 8, !noalias !281
-  %.13.i44 = load i64, ptr %.12.i, align 8, !noalias !281
+  %.11.i42 = load i64, ptr %.10.i41, align 8, !noalias !286
+  %.13.i44 = load i64, ptr %.12.i, align 8, !noalias !286
   %.14.i45 = mul nsw i64 %.13.i44, %.11.i42
   %.15.i46 = getelementptr double, ptr %arg.block, i64 %.14.i45
-  %.193 = getelementptr double, ptr %.15.i46, i64 %arg.lane
-  store double 1.000000e+00, ptr %.193, align 8
-  %.198 = getelementptr i8, ptr %arg.r, i64 408
-  %.199 = load i64, ptr %.198, align 8
-  %.201 = getelementptr i8, ptr %arg.r, i64 416
-  store i64 %.199, ptr %.201, align 8
+  %.224 = getelementptr double, ptr %.15.i46, i64 %arg.lane
+  store double 1.000000e+00, ptr %.224, align 8
+  %.229 = getelementptr i8, ptr %arg.r, i64 408
+  %.230 = load i64, ptr %.229, align 8
+  %.232 = getelementptr i8, ptr %arg.r, i64 440
+  store i64 %.230, ptr %.232, align 8
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
@@ -8940,94 +9113,108 @@ define ptr @begin_sample(ptr readonly %.1, i64 %.2, ptr %.3, ptr writeonly %.4) 
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
   %.20 = load ptr, ptr %.6, align 8
   ret ptr %.20
 }
 
 
-define i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #6 {
+define i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #6 {
 common.ret:
   %.6.i = alloca ptr, align 8
+  %.7.i10 = alloca ptr, align 8
   %.7.i7 = alloca ptr, align 8
   %.7.i3 = alloca ptr, align 8
   %.7.i1 = alloca ptr, align 8
-  %.8 = getelementptr i8, ptr %arg.r, i64 664
+  %.8 = getelementptr i8, ptr %arg.r, i64 688
   %.9 = load i64, ptr %.8, align 8
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !284
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !289
   %.9.i = inttoptr i64 %.8.i to ptr
-  %.11.i = load i64, ptr %.9.i, align 8, !noalias !284
-  %.12.i = getelementptr i8, ptr %arg.s, i64 536
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !284
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !289
+  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !289
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
   %.10 = inttoptr i64 %.9 to ptr
   %.38 = getelementptr i8, ptr %arg.r, i64 80
   %.39 = load i64, ptr %.38, align 8
   %.11.i2 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.10, ptr %.15.i, i64 %.39) #0
-  %.41 = getelementptr i8, ptr %arg.r, i64 640
+  %.41 = getelementptr i8, ptr %arg.r, i64 664
   %.42 = load i64, ptr %.41, align 8
-  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !287
+  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !292
   %.9.i3 = inttoptr i64 %.8.i2 to ptr
   %.10.i = getelementptr i8, ptr %.9.i3, i64 72
-  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !287
-  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !287
+  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !292
+  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !292
   %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
   %.15.i8 = getelementptr double, ptr %arg.block, i64 %.14.i7
   %.43 = inttoptr i64 %.42 to ptr
   %.69 = getelementptr i8, ptr %arg.r, i64 136
   %.70 = load i64, ptr %.69, align 8
   %.11.i5 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i3, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.43, ptr %.15.i8, i64 %.70) #0
-  %.72 = getelementptr i8, ptr %arg.r, i64 352
-  %.74 = load double, ptr %.72, align 8
-  %.75 = getelementptr i8, ptr %arg.r, i64 360
-  %.77 = load double, ptr %.75, align 8
-  %.79 = load i64, ptr %.12.i, align 8
-  %0 = getelementptr double, ptr %arg.block, i64 %.79
-  %.81 = getelementptr double, ptr %0, i64 %arg.lane
-  store double %.74, ptr %.81, align 8
-  %.84 = load i64, ptr %.12.i, align 8
-  %.idx = shl i64 %.84, 4
-  %1 = getelementptr i8, ptr %arg.block, i64 %.idx
-  %.87 = getelementptr double, ptr %1, i64 %arg.lane
-  store double %.77, ptr %.87, align 8
-  %.89 = getelementptr i8, ptr %arg.r, i64 480
-  %.91 = load double, ptr %.89, align 8
-  %.8.i10 = load i64, ptr %.7.i, align 8, !noalias !290
+  %.72 = getelementptr i8, ptr %arg.r, i64 696
+  %.73 = load i64, ptr %.72, align 8
+  %.8.i10 = load i64, ptr %.7.i, align 8, !noalias !295
   %.9.i11 = inttoptr i64 %.8.i10 to ptr
-  %.10.i12 = getelementptr i8, ptr %.9.i11, i64 32
-  %.11.i13 = load i64, ptr %.10.i12, align 8, !noalias !290
-  %.13.i15 = load i64, ptr %.12.i, align 8, !noalias !290
+  %.10.i12 = getelementptr i8, ptr %.9.i11, i64 88
+  %.11.i13 = load i64, ptr %.10.i12, align 8, !noalias !295
+  %.13.i15 = load i64, ptr %.12.i, align 8, !noalias !295
   %.14.i16 = mul nsw i64 %.13.i15, %.11.i13
   %.15.i17 = getelementptr double, ptr %arg.block, i64 %.14.i16
-  %.117 = getelementptr double, ptr %.15.i17, i64 %arg.lane
-  store double %.91, ptr %.117, align 8
-  %.119 = getelementptr i8, ptr %arg.r, i64 264
-  %.121 = load double, ptr %.119, align 8
-  %.8.i19 = load i64, ptr %.7.i, align 8, !noalias !293
+  %.74 = inttoptr i64 %.73 to ptr
+  %.100 = getelementptr i8, ptr %arg.r, i64 96
+  %.101 = load i64, ptr %.100, align 8
+  %.11.i8 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i7, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.74, ptr %.15.i17, i64 %.101) #0
+  %.103 = getelementptr i8, ptr %arg.r, i64 352
+  %.105 = load double, ptr %.103, align 8
+  %.106 = getelementptr i8, ptr %arg.r, i64 360
+  %.108 = load double, ptr %.106, align 8
+  %.110 = load i64, ptr %.12.i, align 8
+  %0 = getelementptr double, ptr %arg.block, i64 %.110
+  %.112 = getelementptr double, ptr %0, i64 %arg.lane
+  store double %.105, ptr %.112, align 8
+  %.115 = load i64, ptr %.12.i, align 8
+  %.idx = shl i64 %.115, 4
+  %1 = getelementptr i8, ptr %arg.block, i64 %.idx
+  %.118 = getelementptr double, ptr %1, i64 %arg.lane
+  store double %.108, ptr %.118, align 8
+  %.120 = getelementptr i8, ptr %arg.r, i64 504
+  %.122 = load double, ptr %.120, align 8
+  %.8.i19 = load i64, ptr %.7.i, align 8, !noalias !298
   %.9.i20 = inttoptr i64 %.8.i19 to ptr
-  %.10.i21 = getelementptr i8, ptr %.9.i20, i64 40
-  %.11.i22 = load i64, ptr %.10.i21, align 8, !noalias !293
-  %.13.i24 = load i64, ptr %.12.i, align 8, !noalias !293
+  %.10.i21 = getelementptr i8, ptr %.9.i20, i64 32
+  %.11.i22 = load i64, ptr %.10.i21, align 8, !noalias !298
+  %.13.i24 = load i64, ptr %.12.i, align 8, !noalias !298
   %.14.i25 = mul nsw i64 %.13.i24, %.11.i22
   %.15.i26 = getelementptr double, ptr %arg.block, i64 %.14.i25
-  %.147 = getelementptr double, ptr %.15.i26, i64 %arg.lane
-  store double %.121, ptr %.147, align 8
-  %.149 = getelementptr i8, ptr %arg.r, i64 296
-  %.150 = load i64, ptr %.149, align 8
-  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !296
+  %.148 = getelementptr double, ptr %.15.i26, i64 %arg.lane
+  store double %.122, ptr %.148, align 8
+  %.150 = getelementptr i8, ptr %arg.r, i64 264
+  %.152 = load double, ptr %.150, align 8
+  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !301
   %.9.i29 = inttoptr i64 %.8.i28 to ptr
-  %.10.i30 = getelementptr i8, ptr %.9.i29, i64 48
-  %.11.i31 = load i64, ptr %.10.i30, align 8, !noalias !296
-  %.13.i33 = load i64, ptr %.12.i, align 8, !noalias !296
+  %.10.i30 = getelementptr i8, ptr %.9.i29, i64 40
+  %.11.i31 = load i64, ptr %.10.i30, align 8, !noalias !301
+  %.13.i33 = load i64, ptr %.12.i, align 8, !noalias !301
   %.14.i34 = mul nsw i64 %.13.i33, %.11.i31
   %.15.i35 = getelementptr double, ptr %arg.block, i64 %.14.i34
-  %.151 = inttoptr i64 %.150 to ptr
-  %.177 = getelementptr i8, ptr %arg.r, i64 72
-  %.178 = load i64, ptr %.177, align 8
-  %.11.i8 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i7, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr readonly %.151, ptr %.15.i35, i64 %.178) #0
-  %.10.i10 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr nonnull %arg.r, ptr nonnull %arg.block) #0
+  %.178 = getelementptr double, ptr %.15.i35, i64 %arg.lane
+  store double %.152, ptr %.178, align 8
+  %.180 = getelementptr i8, ptr %arg.r, i64 296
+  %.181 = load i64, ptr %.180, align 8
+  %.8.i37 = load i64, ptr %.7.i, align 8, !noalias !304
+  %.9.i38 = inttoptr i64 %.8.i37 to ptr
+  %.10.i39 = getelementptr i8, ptr %.9.i38, i64 48
+  %.11.i40 = load i64, ptr %.10.i39, align 8, !noalias !304
+  %.13.i42 = load i64, ptr %.12.i, align 8, !noalias !304
+  %.14.i43 = mul nsw i64 %.13.i42, %.11.i40
+  %.15.i44 = getelementptr double, ptr %arg.block, i64 %.14.i43
+  %.182 = inttoptr i64 %.181 to ptr
+  %.208 = getelementptr i8, ptr %arg.r, i64 72
+  %.209 = load i64, ptr %.208, align 8
+  %.11.i11 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i10, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr readonly %.182, ptr %.15.i44, i64 %.209) #0
+  %.10.i13 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr nonnull %arg.r, ptr nonnull %arg.block) #0
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
@@ -9036,12 +9223,12 @@ common.ret:
 define ptr @enter(ptr readonly %.1, i64 %.2, ptr %.3, ptr writeonly %.4) local_unnamed_addr #6 {
 entry:
   %.6 = alloca ptr, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
   %.20 = load ptr, ptr %.6, align 8
   ret ptr %.20
 }
 
-define i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s) local_unnamed_addr {
 B0:
   %.7.i1 = alloca ptr, align 8
   %.8 = getelementptr i8, ptr %arg.s, i64 64
@@ -9072,47 +9259,47 @@ B28.endif.endif:
   %.16 = getelementptr i8, ptr %arg.s, i64 272
   %.17 = load i64, ptr %.16, align 8
   %.18 = inttoptr i64 %.17 to ptr
-  %.20 = getelementptr i8, ptr %arg.s, i64 568
+  %.20 = getelementptr i8, ptr %arg.s, i64 592
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
-  %.24 = getelementptr i8, ptr %arg.s, i64 576
+  %.24 = getelementptr i8, ptr %arg.s, i64 600
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
   %.27 = inttoptr i64 %.9 to ptr
   tail call void %.27(ptr %.18, ptr %.22, ptr %.26)
   %.32 = load i64, ptr %.20, align 8
   %.33 = inttoptr i64 %.32 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !299
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !307
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 8
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !299
-  %.12.i = getelementptr i8, ptr %arg.s, i64 536
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !299
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !307
+  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !307
   %.14.i = mul i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.33, i64 %.14.i
   %.62 = getelementptr i8, ptr %arg.s, i64 72
   %.63 = load i64, ptr %.62, align 8
   %.67 = mul i64 %.63, %.13.i
   %.68 = getelementptr double, ptr %.15.i, i64 %.67
-  %.70 = getelementptr i8, ptr %arg.s, i64 432
+  %.70 = getelementptr i8, ptr %arg.s, i64 456
   %.71 = load i64, ptr %.70, align 8
   %.72 = add nsw i64 %.71, -4
   %.16152.not = icmp slt i64 %.13.i, 1
   br i1 %.16152.not, label %common.ret, label %B274.preheader
 
 B274.preheader:
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 584
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 608
   br label %B274
 
 B310.endif:
   %.218 = inttoptr i64 %.208 to ptr
-  %.219 = getelementptr i8, ptr %.218, i64 600
+  %.219 = getelementptr i8, ptr %.218, i64 624
   %.220 = load i64, ptr %.219, align 8
   %.221 = inttoptr i64 %.220 to ptr
   %.222 = getelementptr i8, ptr %.218, i64 408
   %.223 = load i64, ptr %.222, align 8
-  %.224 = getelementptr i8, ptr %.218, i64 432
+  %.224 = getelementptr i8, ptr %.218, i64 456
   %.225 = load i64, ptr %.224, align 8
   %.226 = mul nsw i64 %.225, %.223
   %.227 = getelementptr double, ptr %.221, i64 %.226
@@ -9142,7 +9329,7 @@ B310.endif:
   %.11.i2 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.1675153, ptr readonly %.261, ptr %.262, i64 %.72) #0
   %.270 = load i64, ptr %.222, align 8
   %.271 = add nsw i64 %.270, 1
-  %.272 = getelementptr i8, ptr %.218, i64 424
+  %.272 = getelementptr i8, ptr %.218, i64 448
   %.273 = load i64, ptr %.272, align 8
   %.274 = add nsw i64 %.273, -1
   %.13.i1 = tail call i64 @llvm.smin.i64(i64 %.274, i64 %.271)
@@ -9155,136 +9342,145 @@ define ptr @store_nodes(ptr readonly %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca ptr, align 8
   store ptr null, ptr %.3, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
+  %.7 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
   %.17 = load ptr, ptr %.3, align 8
   ret ptr %.17
 }
 
 
-define i32 @_ZN18biped_adrc_kernels3aimB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, i64 %arg.j, i64 %arg.count, ptr readonly %arg.t0, ptr readonly %arg.t_next) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels3aimB4v107B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, i64 %arg.j, i64 %arg.count, ptr readonly %arg.t0, ptr readonly %arg.t_next) local_unnamed_addr #0 {
 B0.endif.endif:
-  %.326 = alloca [4 x double], align 8
+  %.342 = alloca [4 x double], align 8
   %excinfo.5 = alloca ptr, align 8
-  %.20 = getelementptr i8, ptr %arg.s, i64 568
+  %.20 = getelementptr i8, ptr %arg.s, i64 592
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !302
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !310
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 96
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !302
-  %.12.i = getelementptr i8, ptr %arg.s, i64 536
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !302
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !310
+  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !310
   %.14.i = mul i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.22, i64 %.14.i
-  %.143101.not = icmp slt i64 %.13.i, 1
-  br i1 %.143101.not, label %common.ret, label %B114.lr.ph
+  %.14399.not = icmp slt i64 %.13.i, 1
+  br i1 %.14399.not, label %common.ret, label %B114.lr.ph
 
 B114:
-  %.14997102 = phi i64 [ 0, %B114.lr.ph ], [ %.156, %B560 ]
-  %.156 = add nuw nsw i64 %.14997102, 1
-  %0 = shl i64 %.14997102, 3
+  %.14995100 = phi i64 [ 0, %B114.lr.ph ], [ %.156, %B604 ]
+  %.156 = add nuw nsw i64 %.14995100, 1
+  %0 = shl i64 %.14995100, 3
   br i1 %1, label %B128, label %B166
 
 B128:
-  %scevgep40 = getelementptr i8, ptr %arg.t0, i64 %0
-  %.191 = load double, ptr %scevgep40, align 8
+  %scevgep37 = getelementptr i8, ptr %arg.t0, i64 %0
+  %.191 = load double, ptr %scevgep37, align 8
   %.195 = load double, ptr %sunkaddr, align 8
   %.198 = fmul double %.195, %.197
   %.199 = fadd double %.191, %.198
-  %scevgep = getelementptr i8, ptr %arg.t_next, i64 %0
-  %.221.pre = load double, ptr %scevgep, align 8
-  br label %B180.endif.endif.endif
+  br label %B180.endif
 
 B166:
   %scevgep29 = getelementptr i8, ptr %arg.t_next, i64 %0
   %.207 = load double, ptr %scevgep29, align 8
-  br label %B180.endif.endif.endif
+  br label %B180.endif
 
-B344:
-  %.316 = load double, ptr %sunkaddr41, align 8
-  %scevgep35 = getelementptr i8, ptr %.22, i64 %0
-  %.320 = load double, ptr %scevgep35, align 8
-  %.322 = fsub double %"$phi180.1.2.1", %.320
-  %.325 = fmul double %.316, %.322
-  %.330 = call i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr nonnull %.326, ptr nonnull %excinfo.5, double %.325)
-  switch i32 %.330, label %common.ret [
-    i32 -2, label %B344.endif
-    i32 0, label %B344.endif
+B254:
+  %scevgep30 = getelementptr i8, ptr %arg.t_next, i64 %0
+  %.258 = load double, ptr %scevgep30, align 8
+  %.15.i16 = tail call double @nextafter(double %.258, double 0xFFF0000000000000), !noalias !313
+  br label %B318.endif
+
+B388:
+  %.332 = load double, ptr %sunkaddr38, align 8
+  %scevgep32 = getelementptr i8, ptr %.22, i64 %0
+  %.336 = load double, ptr %scevgep32, align 8
+  %.338 = fsub double %"$phi180.1.2.1", %.336
+  %.341 = fmul double %.332, %.338
+  %.346 = call i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr nonnull %.342, ptr nonnull %excinfo.5, double %.341)
+  switch i32 %.346, label %common.ret [
+    i32 -2, label %B388.endif
+    i32 0, label %B388.endif
   ], !prof !8
 
-B560:
+B604:
   %exitcond.not = icmp eq i64 %.13.i, %.156
   br i1 %exitcond.not, label %common.ret, label %B114
 
 common.ret:
-  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %retptr, %B560 ], [ %excinfo, %B344 ]
-  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ 0, %B560 ], [ %.330, %B344 ]
+  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %retptr, %B604 ], [ %excinfo, %B388 ]
+  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ 0, %B604 ], [ %.346, %B388 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
 B114.lr.ph:
   %.197 = sitofp i64 %arg.j to double
   %1 = icmp slt i64 %arg.j, %arg.count
+  %sunkaddr41 = getelementptr i8, ptr %arg.s, i64 216
   %sunkaddr44 = getelementptr i8, ptr %arg.s, i64 160
   %sunkaddr = getelementptr i8, ptr %arg.s, i64 248
-  %sunkaddr41 = getelementptr i8, ptr %arg.s, i64 256
-  %sunkaddr45 = getelementptr inbounds nuw i8, ptr %.326, i64 24
-  %sunkaddr46 = getelementptr inbounds nuw i8, ptr %.326, i64 16
-  %sunkaddr47 = getelementptr inbounds nuw i8, ptr %.326, i64 8
+  %sunkaddr38 = getelementptr i8, ptr %arg.s, i64 256
+  %sunkaddr45 = getelementptr inbounds nuw i8, ptr %.342, i64 24
+  %sunkaddr46 = getelementptr inbounds nuw i8, ptr %.342, i64 16
+  %sunkaddr47 = getelementptr inbounds nuw i8, ptr %.342, i64 8
   br label %B114
 
-B180.endif.endif.endif:
-  %.221 = phi double [ %.207, %B166 ], [ %.221.pre, %B128 ]
+B180.endif:
   %"$phi180.1.2.1" = phi double [ %.207, %B166 ], [ %.199, %B128 ]
-  %.15.i10 = tail call double @nextafter(double %.221, double 0xFFF0000000000000), !noalias !305
-  %.8.i12 = load i64, ptr %.7.i, align 8, !noalias !308
-  %.9.i13 = inttoptr i64 %.8.i12 to ptr
-  %.10.i14 = getelementptr i8, ptr %.9.i13, i64 16
-  %.11.i15 = load i64, ptr %.10.i14, align 8, !noalias !308
-  %.13.i17 = load i64, ptr %.12.i, align 8, !noalias !308
-  %2 = shl i64 %.11.i15, 3
-  %3 = mul i64 %2, %.13.i17
-  %scevgep38 = getelementptr i8, ptr %.22, i64 %3
-  %scevgep39 = getelementptr i8, ptr %scevgep38, i64 %0
-  store double %"$phi180.1.2.1", ptr %scevgep39, align 8
-  %.8.i21 = load i64, ptr %.7.i, align 8, !noalias !311
-  %.9.i22 = inttoptr i64 %.8.i21 to ptr
-  %.10.i23 = getelementptr i8, ptr %.9.i22, i64 24
-  %.11.i24 = load i64, ptr %.10.i23, align 8, !noalias !311
-  %.13.i26 = load i64, ptr %.12.i, align 8, !noalias !311
-  %4 = shl i64 %.11.i24, 3
-  %5 = mul i64 %4, %.13.i26
-  %scevgep36 = getelementptr i8, ptr %.22, i64 %5
-  %scevgep37 = getelementptr i8, ptr %scevgep36, i64 %0
-  store double %.15.i10, ptr %scevgep37, align 8
-  %.309 = load i64, ptr %sunkaddr44, align 8
-  %.310 = icmp sgt i64 %.309, 0
-  br i1 %.310, label %B344, label %B560
+  %.8.i8 = load i64, ptr %.7.i, align 8, !noalias !316
+  %.9.i9 = inttoptr i64 %.8.i8 to ptr
+  %.10.i10 = getelementptr i8, ptr %.9.i9, i64 16
+  %.11.i11 = load i64, ptr %.10.i10, align 8, !noalias !316
+  %.13.i13 = load i64, ptr %.12.i, align 8, !noalias !316
+  %2 = shl i64 %.11.i11, 3
+  %3 = mul i64 %2, %.13.i13
+  %scevgep35 = getelementptr i8, ptr %.22, i64 %3
+  %scevgep36 = getelementptr i8, ptr %scevgep35, i64 %0
+  store double %"$phi180.1.2.1", ptr %scevgep36, align 8
+  %.251 = load double, ptr %sunkaddr41, align 8
+  %.252 = fcmp ogt double %.251, 0.000000e+00
+  br i1 %.252, label %B254, label %B318.endif
 
-B344.endif:
-  %.340.fca.3.load = load double, ptr %sunkaddr45, align 8
-  %.340.fca.2.load = load double, ptr %sunkaddr46, align 8
-  %.340.fca.1.load = load double, ptr %sunkaddr47, align 8
-  %.340.fca.0.load = load double, ptr %.326, align 8
-  %scevgep34 = getelementptr i8, ptr %.15.i, i64 %0
-  store double %.340.fca.0.load, ptr %scevgep34, align 8
-  %.358 = load i64, ptr %.12.i, align 8
-  %6 = shl i64 %.358, 3
-  %scevgep32 = getelementptr i8, ptr %.15.i, i64 %6
-  %scevgep33 = getelementptr i8, ptr %scevgep32, i64 %0
-  store double %.340.fca.1.load, ptr %scevgep33, align 8
-  %.372 = load i64, ptr %.12.i, align 8
-  %.idx = shl i64 %.372, 4
+B318.endif:
+  %"$phi318.1.2.1" = phi double [ 0x7FF0000000000000, %B180.endif ], [ %.15.i16, %B254 ]
+  %.8.i18 = load i64, ptr %.7.i, align 8, !noalias !319
+  %.9.i19 = inttoptr i64 %.8.i18 to ptr
+  %.10.i20 = getelementptr i8, ptr %.9.i19, i64 24
+  %.11.i21 = load i64, ptr %.10.i20, align 8, !noalias !319
+  %.13.i23 = load i64, ptr %.12.i, align 8, !noalias !319
+  %4 = shl i64 %.11.i21, 3
+  %5 = mul i64 %4, %.13.i23
+  %scevgep33 = getelementptr i8, ptr %.22, i64 %5
+  %scevgep34 = getelementptr i8, ptr %scevgep33, i64 %0
+  store double %"$phi318.1.2.1", ptr %scevgep34, align 8
+  %.325 = load i64, ptr %sunkaddr44, align 8
+  %.326 = icmp sgt i64 %.325, 0
+  br i1 %.326, label %B388, label %B604
+
+B388.endif:
+  %.356.fca.3.load = load double, ptr %sunkaddr45, align 8
+  %.356.fca.2.load = load double, ptr %sunkaddr46, align 8
+  %.356.fca.1.load = load double, ptr %sunkaddr47, align 8
+  %.356.fca.0.load = load double, ptr %.342, align 8
+  %scevgep31 = getelementptr i8, ptr %.15.i, i64 %0
+  store double %.356.fca.0.load, ptr %scevgep31, align 8
+  %.374 = load i64, ptr %.12.i, align 8
+  %6 = shl i64 %.374, 3
+  %scevgep27 = getelementptr i8, ptr %.15.i, i64 %6
+  %scevgep28 = getelementptr i8, ptr %scevgep27, i64 %0
+  store double %.356.fca.1.load, ptr %scevgep28, align 8
+  %.388 = load i64, ptr %.12.i, align 8
+  %.idx = shl i64 %.388, 4
   %7 = getelementptr i8, ptr %.15.i, i64 %.idx
-  %scevgep31 = getelementptr i8, ptr %7, i64 %0
-  store double %.340.fca.2.load, ptr %scevgep31, align 8
-  %.381 = load i64, ptr %.12.i, align 8
-  %.idx86 = mul i64 %.381, 24
+  %scevgep26 = getelementptr i8, ptr %7, i64 %0
+  store double %.356.fca.2.load, ptr %scevgep26, align 8
+  %.397 = load i64, ptr %.12.i, align 8
+  %.idx86 = mul i64 %.397, 24
   %8 = getelementptr i8, ptr %.15.i, i64 %.idx86
-  %scevgep30 = getelementptr i8, ptr %8, i64 %0
-  store double %.340.fca.3.load, ptr %scevgep30, align 8
-  br label %B560
+  %scevgep = getelementptr i8, ptr %8, i64 %0
+  store double %.356.fca.3.load, ptr %scevgep, align 8
+  br label %B604
 }
 
 
@@ -9293,7 +9489,7 @@ entry:
   %.7 = alloca ptr, align 8
   store ptr null, ptr %.7, align 8
   %excinfo = alloca ptr, align 8
-  %.11 = call i32 @_ZN18biped_adrc_kernels3aimB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #0
+  %.11 = call i32 @_ZN18biped_adrc_kernels3aimB4v107B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #0
   %cond = icmp eq i32 %.11, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9306,21 +9502,21 @@ common.ret:
   ret ptr %.21
 }
 
-define i32 @_ZN18biped_adrc_kernels6flightB4v110B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, ptr readonly %arg.t0, i64 %arg.until, i64 %arg.count) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels6flightB4v111B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, ptr readonly %arg.t0, i64 %arg.until, i64 %arg.count) local_unnamed_addr {
 B0.endif.endif:
   %.3.i = alloca ptr, align 8
   %.228 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
-  %.16 = getelementptr i8, ptr %arg.s, i64 568
+  %.16 = getelementptr i8, ptr %arg.s, i64 592
   %.17 = load i64, ptr %.16, align 8
   %.18 = inttoptr i64 %.17 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !314
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !322
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i64, ptr %.9.i, i64 %arg.until
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !314
-  %.12.i = getelementptr i8, ptr %arg.s, i64 536
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !314
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !322
+  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !322
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.18, i64 %.14.i
   %.13049.not = icmp slt i64 %arg.count, 1
@@ -9339,7 +9535,7 @@ B320:
   %.265 = inttoptr i64 %.264 to ptr
   %.270 = inttoptr i64 %.257 to ptr
   tail call void %.270(ptr %.261, ptr %.265, ptr %.265)
-  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
+  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
   br label %B426
 
 B426:
@@ -9365,11 +9561,11 @@ B88.endif:
   tail call void %.188(ptr %.179, ptr %.183, ptr %.183)
   %.194 = load i64, ptr %.16, align 8
   %.195 = inttoptr i64 %.194 to ptr
-  %.8.i5 = load i64, ptr %.7.i, align 8, !noalias !317
+  %.8.i5 = load i64, ptr %.7.i, align 8, !noalias !325
   %.9.i6 = inttoptr i64 %.8.i5 to ptr
   %.10.i7 = getelementptr i8, ptr %.9.i6, i64 16
-  %.11.i8 = load i64, ptr %.10.i7, align 8, !noalias !317
-  %.13.i10 = load i64, ptr %.12.i, align 8, !noalias !317
+  %.11.i8 = load i64, ptr %.10.i7, align 8, !noalias !325
+  %.13.i10 = load i64, ptr %.12.i, align 8, !noalias !325
   %.14.i11 = mul nsw i64 %.13.i10, %.11.i8
   %.15.i12 = getelementptr double, ptr %.195, i64 %.14.i11
   %.232 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.228, ptr nonnull %excinfo.3, ptr %.15.i12, ptr %.195, i64 %.13.i10)
@@ -9389,7 +9585,7 @@ entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
   %excinfo = alloca ptr, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels6flightB4v110B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, ptr %.2, i64 %.3, i64 %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels6flightB4v111B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, ptr %.2, i64 %.3, i64 %.4) #0
   %cond = icmp eq i32 %.10, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9402,132 +9598,173 @@ common.ret:
   ret ptr %.20
 }
 
-define i32 @_ZN18biped_adrc_kernels10sample_allB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels10sample_allB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s) local_unnamed_addr {
 B0:
   %.3.i2 = alloca ptr, align 8
   %.3.i = alloca ptr, align 8
-  %.169 = alloca ptr, align 8
-  %excinfo.4 = alloca ptr, align 8
-  %.8 = getelementptr i8, ptr %arg.s, i64 8
-  %.9 = load i64, ptr %.8, align 8
-  %.11 = getelementptr i8, ptr %arg.s, i64 272
-  %.12 = load i64, ptr %.11, align 8
-  %.13 = inttoptr i64 %.12 to ptr
-  %.15 = getelementptr i8, ptr %arg.s, i64 560
+  %.32 = alloca ptr, align 8
+  %excinfo.1 = alloca ptr, align 8
+  %.245 = alloca ptr, align 8
+  %excinfo.5 = alloca ptr, align 8
+  %.8 = getelementptr i8, ptr %arg.s, i64 216
+  %.10 = load double, ptr %.8, align 8
+  %.11 = fcmp oeq double %.10, 0.000000e+00
+  br i1 %.11, label %B26, label %B264
+
+B26:
+  %.15 = getelementptr i8, ptr %arg.s, i64 584
   %.16 = load i64, ptr %.15, align 8
   %.17 = inttoptr i64 %.16 to ptr
-  %.19 = getelementptr i8, ptr %arg.s, i64 568
+  %.19 = getelementptr i8, ptr %arg.s, i64 592
   %.20 = load i64, ptr %.19, align 8
   %.21 = inttoptr i64 %.20 to ptr
-  %.22 = inttoptr i64 %.9 to ptr
-  tail call void %.22(ptr %.13, ptr %.17, ptr %.21)
-  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr readonly %arg.s) #0
-  %.27 = getelementptr i8, ptr %arg.s, i64 224
-  %.29 = load double, ptr %.27, align 8
-  %.30 = fcmp oeq double %.29, 0.000000e+00
-  %.34 = load i64, ptr %.15, align 8
-  br i1 %.30, label %B132.endif, label %B232.endif.endif
+  %.23 = getelementptr i8, ptr %arg.s, i64 576
+  %.24 = load i64, ptr %.23, align 8
+  %.25 = inttoptr i64 %.24 to ptr
+  %.26 = getelementptr i8, ptr %.25, i64 120
+  %.27 = load i64, ptr %.26, align 8
+  %.29 = getelementptr i8, ptr %arg.s, i64 560
+  %.30 = load i64, ptr %.29, align 8
+  %.31 = mul nsw i64 %.30, %.27
+  %.36 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.32, ptr nonnull %excinfo.1, ptr %.17, ptr %.21, i64 %.31)
+  switch i32 %.36, label %common.ret [
+    i32 -2, label %B26.endif
+    i32 0, label %B26.endif
+  ], !prof !8
+
+B264:
+  %.86 = getelementptr i8, ptr %arg.s, i64 8
+  %.87 = load i64, ptr %.86, align 8
+  %.89 = getelementptr i8, ptr %arg.s, i64 272
+  %.90 = load i64, ptr %.89, align 8
+  %.91 = inttoptr i64 %.90 to ptr
+  %.93 = getelementptr i8, ptr %arg.s, i64 584
+  %.94 = load i64, ptr %.93, align 8
+  %.95 = inttoptr i64 %.94 to ptr
+  %.97 = getelementptr i8, ptr %arg.s, i64 592
+  %.98 = load i64, ptr %.97, align 8
+  %.99 = inttoptr i64 %.98 to ptr
+  %.100 = inttoptr i64 %.87 to ptr
+  tail call void %.100(ptr %.91, ptr %.95, ptr %.99)
+  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
+  %.105 = getelementptr i8, ptr %arg.s, i64 224
+  %.107 = load double, ptr %.105, align 8
+  %.108 = fcmp oeq double %.107, 0.000000e+00
+  %.112 = load i64, ptr %.93, align 8
+  br i1 %.108, label %B392.endif, label %B492.endif.endif
 
 common.ret:
-  %retptr.sink = phi ptr [ %retptr, %B232.endif.endif.endif.endif.endif.endif ], [ %retptr, %B132.endif ], [ %excinfo, %B232.endif.endif ]
-  %common.ret.op = phi i32 [ 0, %B232.endif.endif.endif.endif.endif.endif ], [ 0, %B132.endif ], [ %.173, %B232.endif.endif ]
+  %retptr.sink = phi ptr [ %retptr, %B492.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B26 ], [ %retptr, %B392.endif ], [ %retptr, %B26.endif ], [ %excinfo, %B492.endif.endif ]
+  %common.ret.op = phi i32 [ 0, %B492.endif.endif.endif.endif.endif.endif ], [ %.36, %B26 ], [ 0, %B392.endif ], [ 0, %B26.endif ], [ %.249, %B492.endif.endif ]
   store ptr null, ptr %retptr.sink, align 8
   ret i32 %common.ret.op
 
-B132.endif:
-  %.38 = getelementptr i8, ptr %arg.s, i64 216
-  %.40 = load double, ptr %.38, align 8
+B26.endif:
+  %.60 = load i64, ptr %.15, align 8
+  %.61 = inttoptr i64 %.60 to ptr
+  %.63 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.61, i64 8, i64 1)
+  %.66 = load i64, ptr %arg.s, align 8
+  %.68 = getelementptr i8, ptr %arg.s, i64 272
+  %.69 = load i64, ptr %.68, align 8
+  %.70 = inttoptr i64 %.69 to ptr
+  %.73 = load i64, ptr %.19, align 8
+  %.74 = inttoptr i64 %.73 to ptr
+  %.81 = inttoptr i64 %.66 to ptr
+  tail call void %.81(ptr %.70, ptr %.74, ptr %.74)
+  br label %common.ret
+
+B392.endif:
+  %.118 = load double, ptr %.8, align 8
   %.8.i = getelementptr i8, ptr %arg.s, i64 248
-  %.10.i = load double, ptr %.8.i, align 8, !noalias !320
-  %.14.i = fdiv double %.40, %.10.i
+  %.10.i = load double, ptr %.8.i, align 8, !noalias !328
+  %.14.i = fdiv double %.118, %.10.i
   %.15.i = fadd double %.14.i, -1.000000e-09
   %.23.le.i = tail call double @llvm.ceil.f64(double %.15.i)
   %.12.i.i = fcmp ogt double %.23.le.i, 1.000000e+00
   %.13.i.i = select i1 %.12.i.i, double %.23.le.i, double 1.000000e+00
   %.5.i.i = fptosi double %.13.i.i to i64
-  %.35 = inttoptr i64 %.34 to ptr
-  %.69 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.35, i64 8, i64 %.5.i.i)
+  %.113 = inttoptr i64 %.112 to ptr
+  %.145 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.113, i64 8, i64 %.5.i.i)
   br label %common.ret
 
-B232.endif.endif:
+B492.endif.endif:
   %.8.i1 = getelementptr i8, ptr %arg.s, i64 248
-  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !323
-  %.14.i3 = fdiv double %.29, %.10.i2
+  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !331
+  %.14.i3 = fdiv double %.107, %.10.i2
   %.15.i4 = fadd double %.14.i3, -1.000000e-09
   %.23.le.i5 = tail call double @llvm.ceil.f64(double %.15.i4)
   %.12.i.i6 = fcmp ogt double %.23.le.i5, 1.000000e+00
   %.13.i.i7 = select i1 %.12.i.i6, double %.23.le.i5, double 1.000000e+00
   %.5.i.i8 = fptosi double %.13.i.i7 to i64
-  %.77 = inttoptr i64 %.34 to ptr
-  %.109 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.77, i64 7, i64 %.5.i.i8)
-  %.113 = load i64, ptr %.19, align 8
-  %.114 = inttoptr i64 %.113 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i9 = load i64, ptr %.7.i, align 8, !noalias !326
+  %.153 = inttoptr i64 %.112 to ptr
+  %.185 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.153, i64 7, i64 %.5.i.i8)
+  %.189 = load i64, ptr %.97, align 8
+  %.190 = inttoptr i64 %.189 to ptr
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i9 = load i64, ptr %.7.i, align 8, !noalias !334
   %.9.i = inttoptr i64 %.8.i9 to ptr
-  %.11.i = load i64, ptr %.9.i, align 8, !noalias !326
-  %.12.i = getelementptr i8, ptr %arg.s, i64 536
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !326
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !334
+  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !334
   %.14.i10 = mul nsw i64 %.13.i, %.11.i
-  %.15.i11 = getelementptr double, ptr %.114, i64 %.14.i10
-  %.141 = getelementptr i8, ptr %arg.s, i64 80
-  %.142 = load i64, ptr %.141, align 8
-  %.144 = getelementptr i8, ptr %arg.s, i64 88
-  %.145 = load i64, ptr %.144, align 8
-  %.146 = sub nsw i64 %.142, %.145
-  %.150 = mul nsw i64 %.146, %.13.i
-  %.151 = getelementptr double, ptr %.15.i11, i64 %.150
-  %0 = mul i64 %.145, %.13.i
-  %.160 = sub i64 0, %0
-  %.161 = getelementptr double, ptr %.151, i64 %.160
-  %.173 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.169, ptr nonnull %excinfo.4, ptr %.161, ptr %.151, i64 %0)
-  switch i32 %.173, label %common.ret [
-    i32 -2, label %B232.endif.endif.endif.endif.endif.endif
-    i32 0, label %B232.endif.endif.endif.endif.endif.endif
+  %.15.i11 = getelementptr double, ptr %.190, i64 %.14.i10
+  %.217 = getelementptr i8, ptr %arg.s, i64 80
+  %.218 = load i64, ptr %.217, align 8
+  %.220 = getelementptr i8, ptr %arg.s, i64 88
+  %.221 = load i64, ptr %.220, align 8
+  %.222 = sub nsw i64 %.218, %.221
+  %.226 = mul nsw i64 %.222, %.13.i
+  %.227 = getelementptr double, ptr %.15.i11, i64 %.226
+  %0 = mul i64 %.221, %.13.i
+  %.236 = sub i64 0, %0
+  %.237 = getelementptr double, ptr %.227, i64 %.236
+  %.249 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.245, ptr nonnull %excinfo.5, ptr %.237, ptr %.227, i64 %0)
+  switch i32 %.249, label %common.ret [
+    i32 -2, label %B492.endif.endif.endif.endif.endif.endif
+    i32 0, label %B492.endif.endif.endif.endif.endif.endif
   ], !prof !8
 
-B232.endif.endif.endif.endif.endif.endif:
-  %.195 = load i64, ptr %.15, align 8
-  %.200 = load i64, ptr %.19, align 8
-  %.201 = inttoptr i64 %.200 to ptr
-  %.8.i13 = load i64, ptr %.7.i, align 8, !noalias !329
+B492.endif.endif.endif.endif.endif.endif:
+  %.271 = load i64, ptr %.93, align 8
+  %.276 = load i64, ptr %.97, align 8
+  %.277 = inttoptr i64 %.276 to ptr
+  %.8.i13 = load i64, ptr %.7.i, align 8, !noalias !337
   %.9.i14 = inttoptr i64 %.8.i13 to ptr
   %.10.i15 = getelementptr i8, ptr %.9.i14, i64 64
-  %.11.i16 = load i64, ptr %.10.i15, align 8, !noalias !329
-  %.13.i18 = load i64, ptr %.12.i, align 8, !noalias !329
+  %.11.i16 = load i64, ptr %.10.i15, align 8, !noalias !337
+  %.13.i18 = load i64, ptr %.12.i, align 8, !noalias !337
   %.14.i19 = mul nsw i64 %.13.i18, %.11.i16
-  %.15.i20 = getelementptr double, ptr %.201, i64 %.14.i19
-  %.196 = inttoptr i64 %.195 to ptr
-  %.228 = tail call ptr @aim(ptr nonnull %arg.s, i64 1, i64 1, ptr %.196, ptr %.15.i20)
-  %.231 = load i64, ptr %arg.s, align 8
-  %.234 = load i64, ptr %.11, align 8
-  %.235 = inttoptr i64 %.234 to ptr
-  %.238 = load i64, ptr %.19, align 8
-  %.239 = inttoptr i64 %.238 to ptr
-  %.244 = inttoptr i64 %.231 to ptr
-  tail call void %.244(ptr %.235, ptr %.239, ptr %.239)
-  %.7.i3 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v104B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i2, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
-  %.251 = load i64, ptr %.19, align 8
-  %.252 = inttoptr i64 %.251 to ptr
-  %.8.i22 = load i64, ptr %.7.i, align 8, !noalias !332
+  %.15.i20 = getelementptr double, ptr %.277, i64 %.14.i19
+  %.272 = inttoptr i64 %.271 to ptr
+  %.304 = tail call ptr @aim(ptr nonnull %arg.s, i64 1, i64 1, ptr %.272, ptr %.15.i20)
+  %.307 = load i64, ptr %arg.s, align 8
+  %.310 = load i64, ptr %.89, align 8
+  %.311 = inttoptr i64 %.310 to ptr
+  %.314 = load i64, ptr %.97, align 8
+  %.315 = inttoptr i64 %.314 to ptr
+  %.320 = inttoptr i64 %.307 to ptr
+  tail call void %.320(ptr %.311, ptr %.315, ptr %.315)
+  %.7.i3 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i2, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
+  %.327 = load i64, ptr %.97, align 8
+  %.328 = inttoptr i64 %.327 to ptr
+  %.8.i22 = load i64, ptr %.7.i, align 8, !noalias !340
   %.9.i23 = inttoptr i64 %.8.i22 to ptr
   %.10.i24 = getelementptr i8, ptr %.9.i23, i64 56
-  %.11.i25 = load i64, ptr %.10.i24, align 8, !noalias !332
-  %.13.i27 = load i64, ptr %.12.i, align 8, !noalias !332
+  %.11.i25 = load i64, ptr %.10.i24, align 8, !noalias !340
+  %.13.i27 = load i64, ptr %.12.i, align 8, !noalias !340
   %.14.i28 = mul nsw i64 %.13.i27, %.11.i25
-  %.15.i29 = getelementptr double, ptr %.252, i64 %.14.i28
-  %.282 = load double, ptr %.27, align 8
-  %.284 = getelementptr i8, ptr %arg.s, i64 216
-  %.286 = load double, ptr %.284, align 8
-  %.7.i30 = fsub double %.286, %.282
-  %.10.i32 = load double, ptr %.8.i1, align 8, !noalias !335
+  %.15.i29 = getelementptr double, ptr %.328, i64 %.14.i28
+  %.358 = load double, ptr %.105, align 8
+  %.362 = load double, ptr %.8, align 8
+  %.7.i30 = fsub double %.362, %.358
+  %.10.i32 = load double, ptr %.8.i1, align 8, !noalias !343
   %.14.i33 = fdiv double %.7.i30, %.10.i32
   %.15.i34 = fadd double %.14.i33, -1.000000e-09
   %.23.le.i35 = tail call double @llvm.ceil.f64(double %.15.i34)
   %.12.i.i36 = fcmp ogt double %.23.le.i35, 1.000000e+00
   %.13.i.i37 = select i1 %.12.i.i36, double %.23.le.i35, double 1.000000e+00
   %.5.i.i38 = fptosi double %.13.i.i37 to i64
-  %.313 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.15.i29, i64 8, i64 %.5.i.i38)
+  %.389 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.15.i29, i64 8, i64 %.5.i.i38)
   br label %common.ret
 }
 
@@ -9537,7 +9774,7 @@ entry:
   %.3 = alloca ptr, align 8
   store ptr null, ptr %.3, align 8
   %excinfo = alloca ptr, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels10sample_allB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
+  %.7 = call i32 @_ZN18biped_adrc_kernels10sample_allB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
   %cond = icmp eq i32 %.7, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9551,7 +9788,7 @@ common.ret:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels12side_by_sideB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.s, ptr readonly %arg.walks, i64 %arg.count, ptr writeonly %arg.codes) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels12side_by_sideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.s, ptr readonly %arg.walks, i64 %arg.count, ptr writeonly %arg.codes) local_unnamed_addr #0 {
 B0.endif:
   %.6.i12 = alloca ptr, align 8
   %.3.i9 = alloca i64, align 8
@@ -9560,10 +9797,10 @@ B0.endif:
   %.6.i5 = alloca ptr, align 8
   %.6.i2 = alloca ptr, align 8
   %.6.i = alloca ptr, align 8
-  %.44 = getelementptr i8, ptr %arg.s, i64 536
+  %.44 = getelementptr i8, ptr %arg.s, i64 560
   %.45 = load i64, ptr %.44, align 8
-  %.127340.not = icmp slt i64 %.45, 1
-  br i1 %.127340.not, label %B106.endif.preheader, label %B58.lr.ph
+  %.127345.not = icmp slt i64 %.45, 1
+  br i1 %.127345.not, label %B106.endif.preheader, label %B58.lr.ph
 
 B58.lr.ph:
   %xtraiter = and i64 %.45, 7
@@ -9572,8 +9809,8 @@ B58.lr.ph:
 
 B58.lr.ph.new:
   %unroll_iter = and i64 %.45, 9223372036854775800
-  %sunkaddr105 = getelementptr i8, ptr %arg.s, i64 592
-  %sunkaddr106 = getelementptr i8, ptr %arg.s, i64 584
+  %sunkaddr109 = getelementptr i8, ptr %arg.s, i64 616
+  %sunkaddr110 = getelementptr i8, ptr %arg.s, i64 608
   br label %B58
 
 B106.endif.preheader.loopexit.unr-lcssa:
@@ -9581,308 +9818,316 @@ B106.endif.preheader.loopexit.unr-lcssa:
   br i1 %lcmp.mod.not, label %B106.endif.preheader, label %B58.epil.preheader
 
 B58.epil.preheader:
-  %.133339341.epil.init = phi i64 [ 0, %B58.lr.ph ], [ %unroll_iter, %B106.endif.preheader.loopexit.unr-lcssa ]
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 592
-  %sunkaddr104 = getelementptr i8, ptr %arg.s, i64 584
+  %.133344346.epil.init = phi i64 [ 0, %B58.lr.ph ], [ %unroll_iter, %B106.endif.preheader.loopexit.unr-lcssa ]
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 616
+  %sunkaddr108 = getelementptr i8, ptr %arg.s, i64 608
   br label %B58.epil
 
 B58.epil:
   %lsr.iv = phi i64 [ %lsr.iv.next, %B58.epil ], [ %xtraiter, %B58.epil.preheader ]
-  %.133339341.epil = phi i64 [ %.140.epil, %B58.epil ], [ %.133339341.epil.init, %B58.epil.preheader ]
-  %.140.epil = add nuw nsw i64 %.133339341.epil, 1
+  %.133344346.epil = phi i64 [ %.140.epil, %B58.epil ], [ %.133344346.epil.init, %B58.epil.preheader ]
+  %.140.epil = add nuw nsw i64 %.133344346.epil, 1
   %.171.epil = load i64, ptr %sunkaddr, align 8
   %.172.epil = inttoptr i64 %.171.epil to ptr
-  %1 = shl i64 %.133339341.epil, 3
-  %scevgep73 = getelementptr i8, ptr %.172.epil, i64 %1
-  store i64 -1, ptr %scevgep73, align 8
-  %.177.epil = load i64, ptr %sunkaddr104, align 8
+  %1 = shl i64 %.133344346.epil, 3
+  %scevgep77 = getelementptr i8, ptr %.172.epil, i64 %1
+  store i64 -1, ptr %scevgep77, align 8
+  %.177.epil = load i64, ptr %sunkaddr108, align 8
   %.178.epil = inttoptr i64 %.177.epil to ptr
   %scevgep = getelementptr i8, ptr %.178.epil, i64 %1
   store i64 0, ptr %scevgep, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B106.endif.preheader, label %B58.epil, !llvm.loop !338
+  br i1 %epil.iter.cmp.not, label %B106.endif.preheader, label %B58.epil, !llvm.loop !346
 
 B106.endif.preheader:
-  %sunkaddr107 = getelementptr i8, ptr %arg.s, i64 592
-  %sunkaddr116 = getelementptr i8, ptr %arg.s, i64 568
-  %sunkaddr117 = getelementptr i8, ptr %arg.s, i64 552
-  %sunkaddr109 = getelementptr i8, ptr %arg.s, i64 560
+  %sunkaddr111 = getelementptr i8, ptr %arg.s, i64 616
+  %sunkaddr119 = getelementptr i8, ptr %arg.s, i64 592
+  %sunkaddr120 = getelementptr i8, ptr %arg.s, i64 576
   %sunkaddr112 = getelementptr i8, ptr %arg.s, i64 584
+  %sunkaddr115 = getelementptr i8, ptr %arg.s, i64 608
   br label %B106.endif
 
 B58:
-  %.133339341 = phi i64 [ 0, %B58.lr.ph.new ], [ %.140.7, %B58 ]
-  %.171 = load i64, ptr %sunkaddr105, align 8
+  %.133344346 = phi i64 [ 0, %B58.lr.ph.new ], [ %.140.7, %B58 ]
+  %.171 = load i64, ptr %sunkaddr109, align 8
   %.172 = inttoptr i64 %.171 to ptr
-  %2 = shl i64 %.133339341, 3
-  %scevgep103 = getelementptr i8, ptr %.172, i64 %2
-  store i64 -1, ptr %scevgep103, align 8
-  %.177 = load i64, ptr %sunkaddr106, align 8
+  %2 = shl i64 %.133344346, 3
+  %scevgep107 = getelementptr i8, ptr %.172, i64 %2
+  store i64 -1, ptr %scevgep107, align 8
+  %.177 = load i64, ptr %sunkaddr110, align 8
   %.178 = inttoptr i64 %.177 to ptr
-  %scevgep102 = getelementptr i8, ptr %.178, i64 %2
-  store i64 0, ptr %scevgep102, align 8
-  %.171.1 = load i64, ptr %sunkaddr105, align 8
+  %scevgep106 = getelementptr i8, ptr %.178, i64 %2
+  store i64 0, ptr %scevgep106, align 8
+  %.171.1 = load i64, ptr %sunkaddr109, align 8
   %.172.1 = inttoptr i64 %.171.1 to ptr
-  %scevgep98 = getelementptr i8, ptr %.172.1, i64 8
+  %scevgep102 = getelementptr i8, ptr %.172.1, i64 8
+  %scevgep103 = getelementptr i8, ptr %scevgep102, i64 %2
+  store i64 -1, ptr %scevgep103, align 8
+  %.177.1 = load i64, ptr %sunkaddr110, align 8
+  %.178.1 = inttoptr i64 %.177.1 to ptr
+  %scevgep104 = getelementptr i8, ptr %.178.1, i64 8
+  %scevgep105 = getelementptr i8, ptr %scevgep104, i64 %2
+  store i64 0, ptr %scevgep105, align 8
+  %.171.2 = load i64, ptr %sunkaddr109, align 8
+  %.172.2 = inttoptr i64 %.171.2 to ptr
+  %scevgep98 = getelementptr i8, ptr %.172.2, i64 16
   %scevgep99 = getelementptr i8, ptr %scevgep98, i64 %2
   store i64 -1, ptr %scevgep99, align 8
-  %.177.1 = load i64, ptr %sunkaddr106, align 8
-  %.178.1 = inttoptr i64 %.177.1 to ptr
-  %scevgep100 = getelementptr i8, ptr %.178.1, i64 8
+  %.177.2 = load i64, ptr %sunkaddr110, align 8
+  %.178.2 = inttoptr i64 %.177.2 to ptr
+  %scevgep100 = getelementptr i8, ptr %.178.2, i64 16
   %scevgep101 = getelementptr i8, ptr %scevgep100, i64 %2
   store i64 0, ptr %scevgep101, align 8
-  %.171.2 = load i64, ptr %sunkaddr105, align 8
-  %.172.2 = inttoptr i64 %.171.2 to ptr
-  %scevgep94 = getelementptr i8, ptr %.172.2, i64 16
+  %.171.3 = load i64, ptr %sunkaddr109, align 8
+  %.172.3 = inttoptr i64 %.171.3 to ptr
+  %scevgep94 = getelementptr i8, ptr %.172.3, i64 24
   %scevgep95 = getelementptr i8, ptr %scevgep94, i64 %2
   store i64 -1, ptr %scevgep95, align 8
-  %.177.2 = load i64, ptr %sunkaddr106, align 8
-  %.178.2 = inttoptr i64 %.177.2 to ptr
-  %scevgep96 = getelementptr i8, ptr %.178.2, i64 16
+  %.177.3 = load i64, ptr %sunkaddr110, align 8
+  %.178.3 = inttoptr i64 %.177.3 to ptr
+  %scevgep96 = getelementptr i8, ptr %.178.3, i64 24
   %scevgep97 = getelementptr i8, ptr %scevgep96, i64 %2
   store i64 0, ptr %scevgep97, align 8
-  %.171.3 = load i64, ptr %sunkaddr105, align 8
-  %.172.3 = inttoptr i64 %.171.3 to ptr
-  %scevgep90 = getelementptr i8, ptr %.172.3, i64 24
+  %.171.4 = load i64, ptr %sunkaddr109, align 8
+  %.172.4 = inttoptr i64 %.171.4 to ptr
+  %scevgep90 = getelementptr i8, ptr %.172.4, i64 32
   %scevgep91 = getelementptr i8, ptr %scevgep90, i64 %2
   store i64 -1, ptr %scevgep91, align 8
-  %.177.3 = load i64, ptr %sunkaddr106, align 8
-  %.178.3 = inttoptr i64 %.177.3 to ptr
-  %scevgep92 = getelementptr i8, ptr %.178.3, i64 24
+  %.177.4 = load i64, ptr %sunkaddr110, align 8
+  %.178.4 = inttoptr i64 %.177.4 to ptr
+  %scevgep92 = getelementptr i8, ptr %.178.4, i64 32
   %scevgep93 = getelementptr i8, ptr %scevgep92, i64 %2
   store i64 0, ptr %scevgep93, align 8
-  %.171.4 = load i64, ptr %sunkaddr105, align 8
-  %.172.4 = inttoptr i64 %.171.4 to ptr
-  %scevgep86 = getelementptr i8, ptr %.172.4, i64 32
+  %.171.5 = load i64, ptr %sunkaddr109, align 8
+  %.172.5 = inttoptr i64 %.171.5 to ptr
+  %scevgep86 = getelementptr i8, ptr %.172.5, i64 40
   %scevgep87 = getelementptr i8, ptr %scevgep86, i64 %2
   store i64 -1, ptr %scevgep87, align 8
-  %.177.4 = load i64, ptr %sunkaddr106, align 8
-  %.178.4 = inttoptr i64 %.177.4 to ptr
-  %scevgep88 = getelementptr i8, ptr %.178.4, i64 32
+  %.177.5 = load i64, ptr %sunkaddr110, align 8
+  %.178.5 = inttoptr i64 %.177.5 to ptr
+  %scevgep88 = getelementptr i8, ptr %.178.5, i64 40
   %scevgep89 = getelementptr i8, ptr %scevgep88, i64 %2
   store i64 0, ptr %scevgep89, align 8
-  %.171.5 = load i64, ptr %sunkaddr105, align 8
-  %.172.5 = inttoptr i64 %.171.5 to ptr
-  %scevgep82 = getelementptr i8, ptr %.172.5, i64 40
+  %.171.6 = load i64, ptr %sunkaddr109, align 8
+  %.172.6 = inttoptr i64 %.171.6 to ptr
+  %scevgep82 = getelementptr i8, ptr %.172.6, i64 48
   %scevgep83 = getelementptr i8, ptr %scevgep82, i64 %2
   store i64 -1, ptr %scevgep83, align 8
-  %.177.5 = load i64, ptr %sunkaddr106, align 8
-  %.178.5 = inttoptr i64 %.177.5 to ptr
-  %scevgep84 = getelementptr i8, ptr %.178.5, i64 40
+  %.177.6 = load i64, ptr %sunkaddr110, align 8
+  %.178.6 = inttoptr i64 %.177.6 to ptr
+  %scevgep84 = getelementptr i8, ptr %.178.6, i64 48
   %scevgep85 = getelementptr i8, ptr %scevgep84, i64 %2
   store i64 0, ptr %scevgep85, align 8
-  %.171.6 = load i64, ptr %sunkaddr105, align 8
-  %.172.6 = inttoptr i64 %.171.6 to ptr
-  %scevgep78 = getelementptr i8, ptr %.172.6, i64 48
+  %.140.7 = add nuw nsw i64 %.133344346, 8
+  %.171.7 = load i64, ptr %sunkaddr109, align 8
+  %.172.7 = inttoptr i64 %.171.7 to ptr
+  %scevgep78 = getelementptr i8, ptr %.172.7, i64 56
   %scevgep79 = getelementptr i8, ptr %scevgep78, i64 %2
   store i64 -1, ptr %scevgep79, align 8
-  %.177.6 = load i64, ptr %sunkaddr106, align 8
-  %.178.6 = inttoptr i64 %.177.6 to ptr
-  %scevgep80 = getelementptr i8, ptr %.178.6, i64 48
+  %.177.7 = load i64, ptr %sunkaddr110, align 8
+  %.178.7 = inttoptr i64 %.177.7 to ptr
+  %scevgep80 = getelementptr i8, ptr %.178.7, i64 56
   %scevgep81 = getelementptr i8, ptr %scevgep80, i64 %2
   store i64 0, ptr %scevgep81, align 8
-  %.140.7 = add nuw nsw i64 %.133339341, 8
-  %.171.7 = load i64, ptr %sunkaddr105, align 8
-  %.172.7 = inttoptr i64 %.171.7 to ptr
-  %scevgep74 = getelementptr i8, ptr %.172.7, i64 56
-  %scevgep75 = getelementptr i8, ptr %scevgep74, i64 %2
-  store i64 -1, ptr %scevgep75, align 8
-  %.177.7 = load i64, ptr %sunkaddr106, align 8
-  %.178.7 = inttoptr i64 %.177.7 to ptr
-  %scevgep76 = getelementptr i8, ptr %.178.7, i64 56
-  %scevgep77 = getelementptr i8, ptr %scevgep76, i64 %2
-  store i64 0, ptr %scevgep77, align 8
   %niter.ncmp.7 = icmp eq i64 %unroll_iter, %.140.7
   br i1 %niter.ncmp.7, label %B106.endif.preheader.loopexit.unr-lcssa, label %B58
 
 B150:
-  %busy.4.1352 = phi i64 [ %busy.6.2, %B1148 ], [ %busy.5.0, %B106.endif ]
-  %waiting.2.1351 = phi i64 [ %waiting.4.2, %B1148 ], [ %waiting.3.0, %B106.endif ]
-  %.306345347 = phi i64 [ %.313, %B1148 ], [ 0, %B106.endif ]
-  %.313 = add nuw nsw i64 %.306345347, 1
-  %.343 = load i64, ptr %sunkaddr107, align 8
+  %busy.4.1359 = phi i64 [ %busy.6.2, %B1223 ], [ %busy.5.0, %B106.endif ]
+  %waiting.2.1358 = phi i64 [ %waiting.4.2, %B1223 ], [ %waiting.3.0, %B106.endif ]
+  %.306351354 = phi i64 [ %.313, %B1223 ], [ 0, %B106.endif ]
+  %.313 = add nuw nsw i64 %.306351354, 1
+  %.343 = load i64, ptr %sunkaddr111, align 8
   %.344 = inttoptr i64 %.343 to ptr
-  %.346 = getelementptr i64, ptr %.344, i64 %.306345347
+  %.346 = getelementptr i64, ptr %.344, i64 %.306351354
   %.347 = load i64, ptr %.346, align 8
   %.366 = icmp sgt i64 %.347, -1
-  br i1 %.366, label %B246.endif, label %B644
+  br i1 %.366, label %B246.endif, label %B720
 
-B362:
-  %.420 = getelementptr double, ptr %.384, i64 %.306345347
-  %.421 = load double, ptr %.420, align 8
-  %.423 = getelementptr i8, ptr %4, i64 344
-  store double %.421, ptr %.423, align 8
-  %.427 = tail call i64 @is_plain(ptr %4)
-  %.428 = icmp eq i64 %.427, 1
-  %.448 = load i64, ptr %sunkaddr116, align 8
-  %3 = inttoptr i64 %.448 to ptr
-  br i1 %.428, label %B436, label %B484
+B512:
+  %.10.i1 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306351354, ptr nonnull %3, ptr %4) #0
+  br label %B1223
 
-B436:
-  %.10.i1 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v96B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306345347, ptr nonnull %4, ptr %3) #0
-  br label %B1148
+B560:
+  %.10.i3 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i2, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306351354, ptr nonnull readonly %3, ptr readonly %4) #0
+  br label %B732.preheader
 
-B484:
-  %.10.i3 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i2, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306345347, ptr nonnull readonly %4, ptr readonly %3) #0
-  br label %B656.preheader
-
-B532:
-  %.485 = load i64, ptr %sunkaddr109, align 8
-  %.486 = inttoptr i64 %.485 to ptr
-  %.10.i6 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i5, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306345347, ptr readonly %4, ptr readonly %.486) #0
-  %.492 = getelementptr i8, ptr %4, i64 416
-  %.493 = load i64, ptr %.492, align 8
-  %.495 = getelementptr i8, ptr %4, i64 408
-  store i64 %.493, ptr %.495, align 8
+B608:
+  %.522 = load i64, ptr %sunkaddr112, align 8
+  %.523 = inttoptr i64 %.522 to ptr
+  %.10.i6 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i5, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306351354, ptr readonly %3, ptr readonly %.523) #0
+  %.529 = getelementptr i8, ptr %3, i64 440
+  %.530 = load i64, ptr %.529, align 8
+  %.532 = getelementptr i8, ptr %3, i64 408
+  store i64 %.530, ptr %.532, align 8
   store i64 0, ptr %.3.i, align 8
-  %.7.i = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr %4) #0
+  %.7.i = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr %3) #0
   %.17.i = load i64, ptr %.3.i, align 8
-  br label %B656.preheader
+  br label %B732.preheader
 
-B644:
+B720:
   %.350 = load i64, ptr %arg.walks, align 8
   %.351 = inttoptr i64 %.350 to ptr
-  %.566 = icmp slt i64 %waiting.2.1351, %arg.count
-  br i1 %.566, label %B656.preheader, label %B1088
+  %.603 = icmp slt i64 %waiting.2.1358, %arg.count
+  br i1 %.603, label %B732.preheader, label %B1164
 
-B656.preheader:
-  %r.4.3.ph = phi ptr [ %4, %B484 ], [ %4, %B532 ], [ %.351, %B644 ]
-  %code.5.3.ph = phi i64 [ -1, %B484 ], [ %.17.i, %B532 ], [ -1, %B644 ]
-  br label %B656
+B732.preheader:
+  %r.4.3.ph = phi ptr [ %3, %B560 ], [ %3, %B608 ], [ %.351, %B720 ]
+  %code.5.3.ph = phi i64 [ -1, %B560 ], [ %.17.i, %B608 ], [ -1, %B720 ]
+  br label %B732
 
-B656:
-  %waiting.7.3 = phi i64 [ %waiting.6.5267, %B1044 ], [ %waiting.2.1351, %B656.preheader ]
-  %busy.3.3 = phi i64 [ %.741, %B1044 ], [ %busy.4.1352, %B656.preheader ]
-  %r.4.3 = phi ptr [ %r.3.5272, %B1044 ], [ %r.4.3.ph, %B656.preheader ]
-  %code.5.3 = phi i64 [ %code.7.5, %B1044 ], [ %code.5.3.ph, %B656.preheader ]
-  %i.3.3 = phi i64 [ -1, %B1044 ], [ %.347, %B656.preheader ]
-  %.611 = icmp slt i64 %i.3.3, 0
-  br i1 %.611, label %B788.thread, label %B788
+B732:
+  %waiting.7.3 = phi i64 [ %waiting.6.5268, %B1120 ], [ %waiting.2.1358, %B732.preheader ]
+  %busy.3.3 = phi i64 [ %.778, %B1120 ], [ %busy.4.1359, %B732.preheader ]
+  %r.4.3 = phi ptr [ %r.3.5273, %B1120 ], [ %r.4.3.ph, %B732.preheader ]
+  %code.5.3 = phi i64 [ %code.7.5, %B1120 ], [ %code.5.3.ph, %B732.preheader ]
+  %i.3.3 = phi i64 [ -1, %B1120 ], [ %.347, %B732.preheader ]
+  %.648 = icmp slt i64 %i.3.3, 0
+  br i1 %.648, label %B864.thread, label %B864
 
-B788.thread:
-  %.616 = add nsw i64 %waiting.7.3, 1
-  %.618 = add nsw i64 %busy.3.3, 1
-  %.641 = getelementptr i64, ptr %arg.walks, i64 %waiting.7.3
-  %.642 = load i64, ptr %.641, align 8
-  %.643 = inttoptr i64 %.642 to ptr
-  %.9.i8 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr readonly %arg.s, i64 %.306345347, ptr readonly %.643) #0
-  br label %B810
+B864.thread:
+  %.653 = add nsw i64 %waiting.7.3, 1
+  %.655 = add nsw i64 %busy.3.3, 1
+  %.678 = getelementptr i64, ptr %arg.walks, i64 %waiting.7.3
+  %.679 = load i64, ptr %.678, align 8
+  %.680 = inttoptr i64 %.679 to ptr
+  %.9.i8 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr readonly %arg.s, i64 %.306351354, ptr readonly %.680) #0
+  br label %B886
 
-B788:
-  %.659 = icmp eq i64 %code.5.3, -1
-  br i1 %.659, label %B810, label %B1044
+B864:
+  %.696 = icmp eq i64 %code.5.3, -1
+  br i1 %.696, label %B886, label %B1120
 
-B810:
-  %i.4.5275 = phi i64 [ %waiting.7.3, %B788.thread ], [ %i.3.3, %B788 ]
-  %r.3.5271 = phi ptr [ %.643, %B788.thread ], [ %r.4.3, %B788 ]
-  %busy.8.5270 = phi i64 [ %.618, %B788.thread ], [ %busy.3.3, %B788 ]
-  %waiting.6.5268 = phi i64 [ %.616, %B788.thread ], [ %waiting.7.3, %B788 ]
-  %.667 = tail call i64 @is_plain(ptr %r.3.5271)
-  %.668 = icmp eq i64 %.667, 0
-  br i1 %.668, label %B848, label %B1056
+B886:
+  %i.4.5276 = phi i64 [ %waiting.7.3, %B864.thread ], [ %i.3.3, %B864 ]
+  %r.3.5272 = phi ptr [ %.680, %B864.thread ], [ %r.4.3, %B864 ]
+  %busy.8.5271 = phi i64 [ %.655, %B864.thread ], [ %busy.3.3, %B864 ]
+  %waiting.6.5269 = phi i64 [ %.653, %B864.thread ], [ %waiting.7.3, %B864 ]
+  %.704 = tail call i64 @is_plain(ptr %r.3.5272)
+  %.705 = icmp eq i64 %.704, 0
+  br i1 %.705, label %B924, label %B1132
 
-B848:
+B924:
   store i64 0, ptr %.3.i9, align 8
-  %.7.i10 = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i9, ptr nonnull poison, ptr %r.3.5271) #0
+  %.7.i10 = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i9, ptr nonnull poison, ptr %r.3.5272) #0
   %.17.i11 = load i64, ptr %.3.i9, align 8
-  %.682 = icmp eq i64 %.17.i11, -1
-  br i1 %.682, label %B900, label %B1044
+  %.719 = icmp eq i64 %.17.i11, -1
+  br i1 %.719, label %B976, label %B1120
 
-B900:
-  %.690 = tail call i64 @is_plain(ptr %r.3.5271)
-  %.691 = icmp eq i64 %.690, 0
-  br i1 %.691, label %B848, label %B1056
+B976:
+  %.727 = tail call i64 @is_plain(ptr %r.3.5272)
+  %.728 = icmp eq i64 %.727, 0
+  br i1 %.728, label %B924, label %B1132
 
-B1044:
-  %i.4.5274 = phi i64 [ %i.3.3, %B788 ], [ %i.4.5275, %B848 ]
-  %r.3.5272 = phi ptr [ %r.4.3, %B788 ], [ %r.3.5271, %B848 ]
-  %busy.8.5269 = phi i64 [ %busy.3.3, %B788 ], [ %busy.8.5270, %B848 ]
-  %waiting.6.5267 = phi i64 [ %waiting.7.3, %B788 ], [ %waiting.6.5268, %B848 ]
-  %code.7.5 = phi i64 [ %code.5.3, %B788 ], [ %.17.i11, %B848 ]
-  %.736 = getelementptr i64, ptr %arg.codes, i64 %i.4.5274
-  store i64 %code.7.5, ptr %.736, align 8
-  %.741 = add nsw i64 %busy.8.5269, -1
-  %.762 = icmp slt i64 %waiting.6.5267, %arg.count
-  br i1 %.762, label %B656, label %B1088
+B1120:
+  %i.4.5275 = phi i64 [ %i.3.3, %B864 ], [ %i.4.5276, %B924 ]
+  %r.3.5273 = phi ptr [ %r.4.3, %B864 ], [ %r.3.5272, %B924 ]
+  %busy.8.5270 = phi i64 [ %busy.3.3, %B864 ], [ %busy.8.5271, %B924 ]
+  %waiting.6.5268 = phi i64 [ %waiting.7.3, %B864 ], [ %waiting.6.5269, %B924 ]
+  %code.7.5 = phi i64 [ %code.5.3, %B864 ], [ %.17.i11, %B924 ]
+  %.773 = getelementptr i64, ptr %arg.codes, i64 %i.4.5275
+  store i64 %code.7.5, ptr %.773, align 8
+  %.778 = add nsw i64 %busy.8.5270, -1
+  %.799 = icmp slt i64 %waiting.6.5268, %arg.count
+  br i1 %.799, label %B732, label %B1164
 
-B1056:
-  %.724 = load i64, ptr %sunkaddr116, align 8
-  %.725 = inttoptr i64 %.724 to ptr
-  %.10.i13 = call i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i12, ptr nonnull poison, ptr readonly %arg.s, i64 %.306345347, ptr %r.3.5271, ptr %.725) #0
-  %.785 = icmp sgt i64 %i.4.5275, -1
-  br i1 %.785, label %B1070, label %B1088
+B1132:
+  %.761 = load i64, ptr %sunkaddr119, align 8
+  %.762 = inttoptr i64 %.761 to ptr
+  %.10.i13 = call i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i12, ptr nonnull poison, ptr readonly %arg.s, i64 %.306351354, ptr %r.3.5272, ptr %.762) #0
+  %.822 = icmp sgt i64 %i.4.5276, -1
+  br i1 %.822, label %B1146, label %B1164
 
-B1070:
-  %.793 = getelementptr i64, ptr %arg.walks, i64 %i.4.5275
-  %.794 = load i64, ptr %.793, align 8
-  br label %B1088
+B1146:
+  %.830 = getelementptr i64, ptr %arg.walks, i64 %i.4.5276
+  %.831 = load i64, ptr %.830, align 8
+  br label %B1164
 
-B1088:
-  %i.5.4302 = phi i64 [ %i.4.5275, %B1070 ], [ %i.4.5275, %B1056 ], [ %.347, %B644 ], [ -1, %B1044 ]
-  %busy.7.4300 = phi i64 [ %busy.8.5270, %B1070 ], [ %busy.8.5270, %B1056 ], [ %busy.4.1352, %B644 ], [ %.741, %B1044 ]
-  %waiting.5.4298 = phi i64 [ %waiting.6.5268, %B1070 ], [ %waiting.6.5268, %B1056 ], [ %waiting.2.1351, %B644 ], [ %waiting.6.5267, %B1044 ]
-  %"$phi1088.2.2.3" = phi i64 [ %.794, %B1070 ], [ 0, %B1056 ], [ 0, %B644 ], [ 0, %B1044 ]
-  %.818 = load i64, ptr %sunkaddr107, align 8
-  %.819 = inttoptr i64 %.818 to ptr
-  %.822 = getelementptr i64, ptr %.819, i64 %.306345347
-  store i64 %i.5.4302, ptr %.822, align 8
-  %.828 = load i64, ptr %sunkaddr112, align 8
-  %.829 = inttoptr i64 %.828 to ptr
-  %.832 = getelementptr i64, ptr %.829, i64 %.306345347
-  store i64 %"$phi1088.2.2.3", ptr %.832, align 8
-  br label %B1148
+B1164:
+  %i.5.4303 = phi i64 [ %i.4.5276, %B1146 ], [ %i.4.5276, %B1132 ], [ %.347, %B720 ], [ -1, %B1120 ]
+  %busy.7.4301 = phi i64 [ %busy.8.5271, %B1146 ], [ %busy.8.5271, %B1132 ], [ %busy.4.1359, %B720 ], [ %.778, %B1120 ]
+  %waiting.5.4299 = phi i64 [ %waiting.6.5269, %B1146 ], [ %waiting.6.5269, %B1132 ], [ %waiting.2.1358, %B720 ], [ %waiting.6.5268, %B1120 ]
+  %"$phi1164.2.2.3" = phi i64 [ %.831, %B1146 ], [ 0, %B1132 ], [ 0, %B720 ], [ 0, %B1120 ]
+  %.855 = load i64, ptr %sunkaddr111, align 8
+  %.856 = inttoptr i64 %.855 to ptr
+  %.859 = getelementptr i64, ptr %.856, i64 %.306351354
+  store i64 %i.5.4303, ptr %.859, align 8
+  %.865 = load i64, ptr %sunkaddr115, align 8
+  %.866 = inttoptr i64 %.865 to ptr
+  %.869 = getelementptr i64, ptr %.866, i64 %.306351354
+  store i64 %"$phi1164.2.2.3", ptr %.869, align 8
+  br label %B1223
 
-B1130:
-  %waiting.2.1.lcssa = phi i64 [ %waiting.3.0, %B106.endif ], [ %waiting.4.2, %B1148 ]
-  %busy.4.1.lcssa = phi i64 [ %busy.5.0, %B106.endif ], [ %busy.6.2, %B1148 ]
-  %.844 = icmp eq i64 %busy.4.1.lcssa, 0
-  br i1 %.844, label %common.ret, label %B1146
+B1206:
+  %waiting.2.1.lcssa = phi i64 [ %waiting.3.0, %B106.endif ], [ %waiting.4.2, %B1223 ]
+  %busy.4.1.lcssa = phi i64 [ %busy.5.0, %B106.endif ], [ %busy.6.2, %B1223 ]
+  %.881 = icmp eq i64 %busy.4.1.lcssa, 0
+  br i1 %.881, label %common.ret, label %B1222
 
 common.ret:
   store i64 %samples.2.0, ptr %retptr, align 8
   ret i32 0
 
-B1146:
-  %.875 = load i64, ptr %sunkaddr116, align 8
-  %.879 = load i64, ptr %sunkaddr109, align 8
-  store i64 %.875, ptr %sunkaddr109, align 8
-  store i64 %.879, ptr %sunkaddr116, align 8
-  %.890 = tail call ptr @sample_all(ptr nonnull %arg.s)
-  %.892 = add nuw nsw i64 %samples.2.0, 1
+B1222:
+  %.912 = load i64, ptr %sunkaddr119, align 8
+  %.916 = load i64, ptr %sunkaddr112, align 8
+  store i64 %.912, ptr %sunkaddr112, align 8
+  store i64 %.916, ptr %sunkaddr119, align 8
+  %.927 = tail call ptr @sample_all(ptr nonnull %arg.s)
+  %.929 = add nuw nsw i64 %samples.2.0, 1
   br label %B106.endif
 
-B1148:
-  %waiting.4.2 = phi i64 [ %waiting.2.1351, %B436 ], [ %waiting.5.4298, %B1088 ]
-  %busy.6.2 = phi i64 [ %busy.4.1352, %B436 ], [ %busy.7.4300, %B1088 ]
-  %exitcond370.not = icmp eq i64 %.219, %.313
-  br i1 %exitcond370.not, label %B1130, label %B150
+B1223:
+  %waiting.4.2 = phi i64 [ %waiting.2.1358, %B512 ], [ %waiting.5.4299, %B1164 ]
+  %busy.6.2 = phi i64 [ %busy.4.1359, %B512 ], [ %busy.7.4301, %B1164 ]
+  %exitcond380.not = icmp eq i64 %.219, %.313
+  br i1 %exitcond380.not, label %B1206, label %B150
 
 B106.endif:
-  %waiting.3.0 = phi i64 [ %waiting.2.1.lcssa, %B1146 ], [ 0, %B106.endif.preheader ]
-  %busy.5.0 = phi i64 [ %busy.4.1.lcssa, %B1146 ], [ 0, %B106.endif.preheader ]
-  %samples.2.0 = phi i64 [ %.892, %B1146 ], [ 0, %B106.endif.preheader ]
+  %waiting.3.0 = phi i64 [ %waiting.2.1.lcssa, %B1222 ], [ 0, %B106.endif.preheader ]
+  %busy.5.0 = phi i64 [ %busy.4.1.lcssa, %B1222 ], [ 0, %B106.endif.preheader ]
+  %samples.2.0 = phi i64 [ %.929, %B1222 ], [ 0, %B106.endif.preheader ]
   %.219 = load i64, ptr %.44, align 8
-  %.300346.not = icmp slt i64 %.219, 1
-  br i1 %.300346.not, label %B1130, label %B150
+  %.300353.not = icmp slt i64 %.219, 1
+  br i1 %.300353.not, label %B1206, label %B150
 
 B246.endif:
   %.374 = getelementptr i64, ptr %arg.walks, i64 %.347
   %.375 = load i64, ptr %.374, align 8
-  %.383 = load i64, ptr %sunkaddr116, align 8
+  %.383 = load i64, ptr %sunkaddr119, align 8
   %.384 = inttoptr i64 %.383 to ptr
-  %.8.i = load i64, ptr %sunkaddr117, align 8, !noalias !339
+  %.8.i = load i64, ptr %sunkaddr120, align 8, !noalias !347
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 80
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !339
-  %.13.i = load i64, ptr %.44, align 8, !noalias !339
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !347
+  %.13.i = load i64, ptr %.44, align 8, !noalias !347
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.384, i64 %.14.i
-  %.411 = getelementptr double, ptr %.15.i, i64 %.306345347
+  %.411 = getelementptr double, ptr %.15.i, i64 %.306351354
   %.412 = load double, ptr %.411, align 8
   %.413 = fcmp oeq double %.412, 1.000000e+00
-  %4 = inttoptr i64 %.375 to ptr
-  br i1 %.413, label %B362, label %B532
+  %3 = inttoptr i64 %.375 to ptr
+  br i1 %.413, label %B362.endif, label %B608
+
+B362.endif:
+  %.420 = getelementptr double, ptr %.384, i64 %.306351354
+  %.421 = load double, ptr %.420, align 8
+  %.423 = getelementptr i8, ptr %3, i64 424
+  %.424 = load i64, ptr %.423, align 8
+  %.426 = getelementptr i8, ptr %3, i64 216
+  %.428 = load double, ptr %.426, align 8
+  %.429 = fcmp oeq double %.428, 0.000000e+00
+  %.15.i15 = zext i1 %.429 to i64
+  %.455 = add nsw i64 %.424, %.15.i15
+  %.457 = getelementptr i8, ptr %3, i64 344
+  store double %.421, ptr %.457, align 8
+  store i64 %.455, ptr %.423, align 8
+  %.464 = tail call i64 @is_plain(ptr nonnull %3)
+  %.465 = icmp eq i64 %.464, 1
+  %.485 = load i64, ptr %sunkaddr119, align 8
+  %4 = inttoptr i64 %.485 to ptr
+  br i1 %.465, label %B512, label %B560
 }
 
 
@@ -9890,19 +10135,19 @@ define i64 @side_by_side(ptr %.1, ptr readonly %.2, i64 %.3, ptr writeonly %.4) 
 entry:
   %.6 = alloca i64, align 8
   store i64 0, ptr %.6, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels12side_by_sideB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels12side_by_sideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
   %.20 = load i64, ptr %.6, align 8
   ret i64 %.20
 }
 
 
-define i32 @_ZN18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, ptr readonly %arg.walks, i64 %arg.first, ptr %arg.impacts) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, ptr readonly %arg.walks, i64 %arg.first, ptr %arg.impacts) local_unnamed_addr #0 {
 B0.endif:
   %.6.i8 = alloca ptr, align 8
   %.6.i = alloca ptr, align 8
   %.7.i2 = alloca ptr, align 8
   %.5.i = alloca ptr, align 8
-  %.35 = getelementptr i8, ptr %arg.s, i64 536
+  %.35 = getelementptr i8, ptr %arg.s, i64 560
   %.36 = load i64, ptr %.35, align 8
   %.119218.not = icmp slt i64 %.36, 1
   br i1 %.119218.not, label %common.ret, label %B58.lr.ph
@@ -9911,11 +10156,11 @@ B58.lr.ph:
   %0 = shl i64 %arg.first, 3
   %scevgep152 = getelementptr i8, ptr %arg.walks, i64 %0
   %scevgep154 = getelementptr i8, ptr %arg.impacts, i64 %0
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 584
-  %sunkaddr157 = getelementptr i8, ptr %arg.s, i64 592
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 608
+  %sunkaddr157 = getelementptr i8, ptr %arg.s, i64 616
   %sunkaddr159 = getelementptr i8, ptr %arg.s, i64 328
   %sunkaddr160 = getelementptr i8, ptr %arg.s, i64 336
-  %sunkaddr176 = getelementptr i8, ptr %arg.s, i64 560
+  %sunkaddr176 = getelementptr i8, ptr %arg.s, i64 584
   br label %B58
 
 B58:
@@ -9979,14 +10224,14 @@ B36.epil.i:
   %.111.epil.i = add nuw nsw i64 %.1044042.epil.i, 1
   %3 = shl i64 %.1044042.epil.i, 3
   %scevgep.i = getelementptr i8, ptr %.258, i64 %3
-  %.138.epil.i = load double, ptr %scevgep.i, align 8, !noalias !342
-  %.141.epil.i = load i64, ptr %.35, align 8, !noalias !342
+  %.138.epil.i = load double, ptr %scevgep.i, align 8, !noalias !350
+  %.141.epil.i = load i64, ptr %.35, align 8, !noalias !350
   %.142.epil.i = mul nsw i64 %.141.epil.i, %.1044042.epil.i
   %gep.epil.i = getelementptr double, ptr %invariant.gep.i, i64 %.142.epil.i
-  store double %.138.epil.i, ptr %gep.epil.i, align 8, !noalias !342
+  store double %.138.epil.i, ptr %gep.epil.i, align 8, !noalias !350
   %lsr.iv.next.i = add nsw i64 %lsr.iv.i, -1
   %epil.iter.cmp.not.i = icmp eq i64 %lsr.iv.next.i, 0
-  br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit, label %B36.epil.i, !llvm.loop !255
+  br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit, label %B36.epil.i, !llvm.loop !257
 
 _ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit:
   %.267 = tail call i64 @is_plain(ptr nonnull %2)
@@ -10005,13 +10250,13 @@ B578:
 
 B622:
   %5 = icmp sgt i64 %pushed.3.1, 0
-  %.371 = getelementptr i8, ptr %arg.s, i64 568
+  %.371 = getelementptr i8, ptr %arg.s, i64 592
   %.372 = load i64, ptr %.371, align 8
   %.368 = load i64, ptr %sunkaddr176, align 8
   br i1 %5, label %B636, label %B652.endif.endif
 
 B636:
-  %sunkaddr162 = getelementptr i8, ptr %arg.s, i64 544
+  %sunkaddr162 = getelementptr i8, ptr %arg.s, i64 568
   %.466 = load i64, ptr %sunkaddr162, align 8
   br label %B652.endif.endif
 
@@ -10028,20 +10273,20 @@ B800.endif.endif.epil.preheader:
 B800.endif.endif.epil:
   %lsr.iv124 = phi i64 [ %lsr.iv.next125, %B800.endif.endif.epil ], [ %xtraiter, %B800.endif.endif.epil.preheader ]
   %lsr.iv120 = phi ptr [ %scevgep121, %B800.endif.endif.epil ], [ %scevgep119, %B800.endif.endif.epil.preheader ]
-  %.8.i14.epil = load i64, ptr %.7.i, align 8, !noalias !345
+  %.8.i14.epil = load i64, ptr %.7.i, align 8, !noalias !353
   %.9.i15.epil = inttoptr i64 %.8.i14.epil to ptr
   %.10.i16.epil = getelementptr i8, ptr %.9.i15.epil, i64 8
-  %.11.i17.epil = load i64, ptr %.10.i16.epil, align 8, !noalias !345
-  %.13.i19.epil = load i64, ptr %.35, align 8, !noalias !345
+  %.11.i17.epil = load i64, ptr %.10.i16.epil, align 8, !noalias !353
+  %.13.i19.epil = load i64, ptr %.35, align 8, !noalias !353
   %7 = shl i64 %.11.i17.epil, 3
   %8 = mul i64 %7, %.13.i19.epil
   %scevgep123 = getelementptr i8, ptr %lsr.iv120, i64 %8
   store double 0.000000e+00, ptr %scevgep123, align 8
-  %.8.i59.epil = load i64, ptr %.7.i, align 8, !noalias !348
+  %.8.i59.epil = load i64, ptr %.7.i, align 8, !noalias !356
   %.9.i60.epil = inttoptr i64 %.8.i59.epil to ptr
   %.10.i61.epil = getelementptr i8, ptr %.9.i60.epil, i64 112
-  %.11.i62.epil = load i64, ptr %.10.i61.epil, align 8, !noalias !348
-  %.13.i64.epil = load i64, ptr %.35, align 8, !noalias !348
+  %.11.i62.epil = load i64, ptr %.10.i61.epil, align 8, !noalias !356
+  %.13.i64.epil = load i64, ptr %.35, align 8, !noalias !356
   %9 = shl i64 %.11.i62.epil, 3
   %10 = mul i64 %9, %.13.i64.epil
   %scevgep122 = getelementptr i8, ptr %lsr.iv120, i64 %10
@@ -10049,24 +10294,24 @@ B800.endif.endif.epil:
   %scevgep121 = getelementptr i8, ptr %lsr.iv120, i64 8
   %lsr.iv.next125 = add nsw i64 %lsr.iv124, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next125, 0
-  br i1 %epil.iter.cmp.not, label %B622.1, label %B800.endif.endif.epil, !llvm.loop !351
+  br i1 %epil.iter.cmp.not, label %B622.1, label %B800.endif.endif.epil, !llvm.loop !359
 
 B622.1:
   br i1 %5, label %B636.1, label %B652.endif.endif.1
 
 B636.1:
-  %sunkaddr165 = getelementptr i8, ptr %arg.s, i64 544
+  %sunkaddr165 = getelementptr i8, ptr %arg.s, i64 568
   %.466.1 = load i64, ptr %sunkaddr165, align 8
   br label %B652.endif.endif.1
 
 B652.endif.endif.1:
   %"$phi652.1.2.1.1" = phi i64 [ %.466.1, %B636.1 ], [ 0, %B622.1 ]
   %11 = inttoptr i64 %.372 to ptr
-  %.8.i23 = load i64, ptr %.7.i, align 8, !noalias !352
+  %.8.i23 = load i64, ptr %.7.i, align 8, !noalias !360
   %.9.i24 = inttoptr i64 %.8.i23 to ptr
   %.10.i25 = getelementptr i8, ptr %.9.i24, i64 120
-  %.11.i26 = load i64, ptr %.10.i25, align 8, !noalias !352
-  %.13.i28 = load i64, ptr %.35, align 8, !noalias !352
+  %.11.i26 = load i64, ptr %.10.i25, align 8, !noalias !360
+  %.13.i28 = load i64, ptr %.35, align 8, !noalias !360
   %.14.i29 = mul nsw i64 %.13.i28, %.11.i26
   %.15.i30 = getelementptr double, ptr %11, i64 %.14.i29
   store i64 %"$phi652.1.2.1.1", ptr %.15.i30, align 8
@@ -10088,65 +10333,65 @@ B800.endif.endif.1.preheader.new:
 
 B800.endif.endif.1:
   %.600228231.1 = phi i64 [ 0, %B800.endif.endif.1.preheader.new ], [ %.607.1.3, %B800.endif.endif.1 ]
-  %.8.i32 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.8.i32 = load i64, ptr %.7.i, align 8, !noalias !363
   %.9.i33 = inttoptr i64 %.8.i32 to ptr
   %.10.i34 = getelementptr i8, ptr %.9.i33, i64 8
-  %.11.i35 = load i64, ptr %.10.i34, align 8, !noalias !355
-  %.13.i37 = load i64, ptr %.35, align 8, !noalias !355
+  %.11.i35 = load i64, ptr %.10.i34, align 8, !noalias !363
+  %.13.i37 = load i64, ptr %.35, align 8, !noalias !363
   %13 = shl i64 %.11.i35, 3
   %14 = mul i64 %13, %.13.i37
   %scevgep117 = getelementptr i8, ptr %11, i64 %14
   %15 = shl i64 %.600228231.1, 3
   %scevgep118 = getelementptr i8, ptr %scevgep117, i64 %15
   store double 0.000000e+00, ptr %scevgep118, align 8
-  %.8.i41 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.8.i41 = load i64, ptr %.7.i, align 8, !noalias !366
   %.9.i42 = inttoptr i64 %.8.i41 to ptr
   %.10.i43 = getelementptr i8, ptr %.9.i42, i64 112
-  %.11.i44 = load i64, ptr %.10.i43, align 8, !noalias !358
-  %.13.i46 = load i64, ptr %.35, align 8, !noalias !358
+  %.11.i44 = load i64, ptr %.10.i43, align 8, !noalias !366
+  %.13.i46 = load i64, ptr %.35, align 8, !noalias !366
   %16 = shl i64 %.11.i44, 3
   %17 = mul i64 %16, %.13.i46
   %scevgep115 = getelementptr i8, ptr %11, i64 %17
   %scevgep116 = getelementptr i8, ptr %scevgep115, i64 %15
   store double 0.000000e+00, ptr %scevgep116, align 8
-  %.8.i32.1 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.8.i32.1 = load i64, ptr %.7.i, align 8, !noalias !363
   %.9.i33.1 = inttoptr i64 %.8.i32.1 to ptr
   %.10.i34.1 = getelementptr i8, ptr %.9.i33.1, i64 8
-  %.11.i35.1 = load i64, ptr %.10.i34.1, align 8, !noalias !355
-  %.13.i37.1 = load i64, ptr %.35, align 8, !noalias !355
+  %.11.i35.1 = load i64, ptr %.10.i34.1, align 8, !noalias !363
+  %.13.i37.1 = load i64, ptr %.35, align 8, !noalias !363
   %18 = shl i64 %.11.i35.1, 3
   %19 = mul i64 %18, %.13.i37.1
   %scevgep109 = getelementptr i8, ptr %11, i64 %19
   %scevgep110 = getelementptr i8, ptr %scevgep109, i64 %15
   %scevgep111 = getelementptr i8, ptr %scevgep110, i64 8
   store double 0.000000e+00, ptr %scevgep111, align 8
-  %.8.i41.1 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.8.i41.1 = load i64, ptr %.7.i, align 8, !noalias !366
   %.9.i42.1 = inttoptr i64 %.8.i41.1 to ptr
   %.10.i43.1 = getelementptr i8, ptr %.9.i42.1, i64 112
-  %.11.i44.1 = load i64, ptr %.10.i43.1, align 8, !noalias !358
-  %.13.i46.1 = load i64, ptr %.35, align 8, !noalias !358
+  %.11.i44.1 = load i64, ptr %.10.i43.1, align 8, !noalias !366
+  %.13.i46.1 = load i64, ptr %.35, align 8, !noalias !366
   %20 = shl i64 %.11.i44.1, 3
   %21 = mul i64 %20, %.13.i46.1
   %scevgep112 = getelementptr i8, ptr %11, i64 %21
   %scevgep113 = getelementptr i8, ptr %scevgep112, i64 %15
   %scevgep114 = getelementptr i8, ptr %scevgep113, i64 8
   store double 0.000000e+00, ptr %scevgep114, align 8
-  %.8.i32.2 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.8.i32.2 = load i64, ptr %.7.i, align 8, !noalias !363
   %.9.i33.2 = inttoptr i64 %.8.i32.2 to ptr
   %.10.i34.2 = getelementptr i8, ptr %.9.i33.2, i64 8
-  %.11.i35.2 = load i64, ptr %.10.i34.2, align 8, !noalias !355
-  %.13.i37.2 = load i64, ptr %.35, align 8, !noalias !355
+  %.11.i35.2 = load i64, ptr %.10.i34.2, align 8, !noalias !363
+  %.13.i37.2 = load i64, ptr %.35, align 8, !noalias !363
   %22 = shl i64 %.11.i35.2, 3
   %23 = mul i64 %22, %.13.i37.2
   %scevgep103 = getelementptr i8, ptr %11, i64 %23
   %scevgep104 = getelementptr i8, ptr %scevgep103, i64 %15
   %scevgep105 = getelementptr i8, ptr %scevgep104, i64 16
   store double 0.000000e+00, ptr %scevgep105, align 8
-  %.8.i41.2 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.8.i41.2 = load i64, ptr %.7.i, align 8, !noalias !366
   %.9.i42.2 = inttoptr i64 %.8.i41.2 to ptr
   %.10.i43.2 = getelementptr i8, ptr %.9.i42.2, i64 112
-  %.11.i44.2 = load i64, ptr %.10.i43.2, align 8, !noalias !358
-  %.13.i46.2 = load i64, ptr %.35, align 8, !noalias !358
+  %.11.i44.2 = load i64, ptr %.10.i43.2, align 8, !noalias !366
+  %.13.i46.2 = load i64, ptr %.35, align 8, !noalias !366
   %24 = shl i64 %.11.i44.2, 3
   %25 = mul i64 %24, %.13.i46.2
   %scevgep106 = getelementptr i8, ptr %11, i64 %25
@@ -10154,22 +10399,22 @@ B800.endif.endif.1:
   %scevgep108 = getelementptr i8, ptr %scevgep107, i64 16
   store double 0.000000e+00, ptr %scevgep108, align 8
   %.607.1.3 = add nuw i64 %.600228231.1, 4
-  %.8.i32.3 = load i64, ptr %.7.i, align 8, !noalias !355
+  %.8.i32.3 = load i64, ptr %.7.i, align 8, !noalias !363
   %.9.i33.3 = inttoptr i64 %.8.i32.3 to ptr
   %.10.i34.3 = getelementptr i8, ptr %.9.i33.3, i64 8
-  %.11.i35.3 = load i64, ptr %.10.i34.3, align 8, !noalias !355
-  %.13.i37.3 = load i64, ptr %.35, align 8, !noalias !355
+  %.11.i35.3 = load i64, ptr %.10.i34.3, align 8, !noalias !363
+  %.13.i37.3 = load i64, ptr %.35, align 8, !noalias !363
   %26 = shl i64 %.11.i35.3, 3
   %27 = mul i64 %26, %.13.i37.3
   %scevgep97 = getelementptr i8, ptr %11, i64 %27
   %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %15
   %scevgep99 = getelementptr i8, ptr %scevgep98, i64 24
   store double 0.000000e+00, ptr %scevgep99, align 8
-  %.8.i41.3 = load i64, ptr %.7.i, align 8, !noalias !358
+  %.8.i41.3 = load i64, ptr %.7.i, align 8, !noalias !366
   %.9.i42.3 = inttoptr i64 %.8.i41.3 to ptr
   %.10.i43.3 = getelementptr i8, ptr %.9.i42.3, i64 112
-  %.11.i44.3 = load i64, ptr %.10.i43.3, align 8, !noalias !358
-  %.13.i46.3 = load i64, ptr %.35, align 8, !noalias !358
+  %.11.i44.3 = load i64, ptr %.10.i43.3, align 8, !noalias !366
+  %.13.i46.3 = load i64, ptr %.35, align 8, !noalias !366
   %28 = shl i64 %.11.i44.3, 3
   %29 = mul i64 %28, %.13.i46.3
   %scevgep100 = getelementptr i8, ptr %11, i64 %29
@@ -10192,20 +10437,20 @@ B800.endif.endif.1.epil.preheader:
 B800.endif.endif.1.epil:
   %lsr.iv96 = phi i64 [ %lsr.iv.next, %B800.endif.endif.1.epil ], [ %xtraiter82, %B800.endif.endif.1.epil.preheader ]
   %lsr.iv = phi ptr [ %scevgep93, %B800.endif.endif.1.epil ], [ %scevgep92, %B800.endif.endif.1.epil.preheader ]
-  %.8.i32.epil = load i64, ptr %.7.i, align 8, !noalias !355
+  %.8.i32.epil = load i64, ptr %.7.i, align 8, !noalias !363
   %.9.i33.epil = inttoptr i64 %.8.i32.epil to ptr
   %.10.i34.epil = getelementptr i8, ptr %.9.i33.epil, i64 8
-  %.11.i35.epil = load i64, ptr %.10.i34.epil, align 8, !noalias !355
-  %.13.i37.epil = load i64, ptr %.35, align 8, !noalias !355
+  %.11.i35.epil = load i64, ptr %.10.i34.epil, align 8, !noalias !363
+  %.13.i37.epil = load i64, ptr %.35, align 8, !noalias !363
   %31 = shl i64 %.11.i35.epil, 3
   %32 = mul i64 %31, %.13.i37.epil
   %scevgep95 = getelementptr i8, ptr %lsr.iv, i64 %32
   store double 0.000000e+00, ptr %scevgep95, align 8
-  %.8.i41.epil = load i64, ptr %.7.i, align 8, !noalias !358
+  %.8.i41.epil = load i64, ptr %.7.i, align 8, !noalias !366
   %.9.i42.epil = inttoptr i64 %.8.i41.epil to ptr
   %.10.i43.epil = getelementptr i8, ptr %.9.i42.epil, i64 112
-  %.11.i44.epil = load i64, ptr %.10.i43.epil, align 8, !noalias !358
-  %.13.i46.epil = load i64, ptr %.35, align 8, !noalias !358
+  %.11.i44.epil = load i64, ptr %.10.i43.epil, align 8, !noalias !366
+  %.13.i46.epil = load i64, ptr %.35, align 8, !noalias !366
   %33 = shl i64 %.11.i44.epil, 3
   %34 = mul i64 %33, %.13.i46.epil
   %scevgep94 = getelementptr i8, ptr %lsr.iv, i64 %34
@@ -10213,7 +10458,7 @@ B800.endif.endif.1.epil:
   %scevgep93 = getelementptr i8, ptr %lsr.iv, i64 8
   %lsr.iv.next = add nsw i64 %lsr.iv96, -1
   %epil.iter83.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter83.cmp.not, label %B904.1, label %B800.endif.endif.1.epil, !llvm.loop !361
+  br i1 %epil.iter83.cmp.not, label %B904.1, label %B800.endif.endif.1.epil, !llvm.loop !369
 
 B904.1:
   %.707 = tail call ptr @sample_all(ptr nonnull %arg.s)
@@ -10255,7 +10500,7 @@ common.ret:
 B442.endif:
   %.272 = load i64, ptr %sunkaddr176, align 8
   %.273 = inttoptr i64 %.272 to ptr
-  %.10.i9 = call i32 @_ZN18biped_adrc_kernels5enterB4v100B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr nonnull %2, ptr %.273) #0
+  %.10.i9 = call i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr nonnull %2, ptr %.273) #0
   %.281 = load i64, ptr %scevgep153, align 8
   %.289 = getelementptr i8, ptr %2, i64 200
   %.290 = load i64, ptr %.289, align 8
@@ -10270,12 +10515,12 @@ B442.endif:
 B652.endif.endif:
   %"$phi652.1.2.1" = phi i64 [ %.466, %B636 ], [ 0, %B622 ]
   %36 = inttoptr i64 %.368 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 552
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !362
+  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !370
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 120
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !362
-  %.13.i12 = load i64, ptr %.35, align 8, !noalias !362
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !370
+  %.13.i12 = load i64, ptr %.35, align 8, !noalias !370
   %.14.i = mul nsw i64 %.13.i12, %.11.i
   %.15.i = getelementptr double, ptr %36, i64 %.14.i
   store i64 %"$phi652.1.2.1", ptr %.15.i, align 8
@@ -10298,65 +10543,65 @@ B800.endif.endif.preheader.new:
 
 B800.endif.endif:
   %.600228231 = phi i64 [ 0, %B800.endif.endif.preheader.new ], [ %.607.3, %B800.endif.endif ]
-  %.8.i14 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.8.i14 = load i64, ptr %.7.i, align 8, !noalias !353
   %.9.i15 = inttoptr i64 %.8.i14 to ptr
   %.10.i16 = getelementptr i8, ptr %.9.i15, i64 8
-  %.11.i17 = load i64, ptr %.10.i16, align 8, !noalias !345
-  %.13.i19 = load i64, ptr %.35, align 8, !noalias !345
+  %.11.i17 = load i64, ptr %.10.i16, align 8, !noalias !353
+  %.13.i19 = load i64, ptr %.35, align 8, !noalias !353
   %38 = shl i64 %.11.i17, 3
   %39 = mul i64 %38, %.13.i19
   %scevgep146 = getelementptr i8, ptr %36, i64 %39
   %40 = shl i64 %.600228231, 3
   %scevgep147 = getelementptr i8, ptr %scevgep146, i64 %40
   store double 0.000000e+00, ptr %scevgep147, align 8
-  %.8.i59 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.8.i59 = load i64, ptr %.7.i, align 8, !noalias !356
   %.9.i60 = inttoptr i64 %.8.i59 to ptr
   %.10.i61 = getelementptr i8, ptr %.9.i60, i64 112
-  %.11.i62 = load i64, ptr %.10.i61, align 8, !noalias !348
-  %.13.i64 = load i64, ptr %.35, align 8, !noalias !348
+  %.11.i62 = load i64, ptr %.10.i61, align 8, !noalias !356
+  %.13.i64 = load i64, ptr %.35, align 8, !noalias !356
   %41 = shl i64 %.11.i62, 3
   %42 = mul i64 %41, %.13.i64
   %scevgep144 = getelementptr i8, ptr %36, i64 %42
   %scevgep145 = getelementptr i8, ptr %scevgep144, i64 %40
   store double 0.000000e+00, ptr %scevgep145, align 8
-  %.8.i14.1 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.8.i14.1 = load i64, ptr %.7.i, align 8, !noalias !353
   %.9.i15.1 = inttoptr i64 %.8.i14.1 to ptr
   %.10.i16.1 = getelementptr i8, ptr %.9.i15.1, i64 8
-  %.11.i17.1 = load i64, ptr %.10.i16.1, align 8, !noalias !345
-  %.13.i19.1 = load i64, ptr %.35, align 8, !noalias !345
+  %.11.i17.1 = load i64, ptr %.10.i16.1, align 8, !noalias !353
+  %.13.i19.1 = load i64, ptr %.35, align 8, !noalias !353
   %43 = shl i64 %.11.i17.1, 3
   %44 = mul i64 %43, %.13.i19.1
   %scevgep138 = getelementptr i8, ptr %36, i64 %44
   %scevgep139 = getelementptr i8, ptr %scevgep138, i64 %40
   %scevgep140 = getelementptr i8, ptr %scevgep139, i64 8
   store double 0.000000e+00, ptr %scevgep140, align 8
-  %.8.i59.1 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.8.i59.1 = load i64, ptr %.7.i, align 8, !noalias !356
   %.9.i60.1 = inttoptr i64 %.8.i59.1 to ptr
   %.10.i61.1 = getelementptr i8, ptr %.9.i60.1, i64 112
-  %.11.i62.1 = load i64, ptr %.10.i61.1, align 8, !noalias !348
-  %.13.i64.1 = load i64, ptr %.35, align 8, !noalias !348
+  %.11.i62.1 = load i64, ptr %.10.i61.1, align 8, !noalias !356
+  %.13.i64.1 = load i64, ptr %.35, align 8, !noalias !356
   %45 = shl i64 %.11.i62.1, 3
   %46 = mul i64 %45, %.13.i64.1
   %scevgep141 = getelementptr i8, ptr %36, i64 %46
   %scevgep142 = getelementptr i8, ptr %scevgep141, i64 %40
   %scevgep143 = getelementptr i8, ptr %scevgep142, i64 8
   store double 0.000000e+00, ptr %scevgep143, align 8
-  %.8.i14.2 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.8.i14.2 = load i64, ptr %.7.i, align 8, !noalias !353
   %.9.i15.2 = inttoptr i64 %.8.i14.2 to ptr
   %.10.i16.2 = getelementptr i8, ptr %.9.i15.2, i64 8
-  %.11.i17.2 = load i64, ptr %.10.i16.2, align 8, !noalias !345
-  %.13.i19.2 = load i64, ptr %.35, align 8, !noalias !345
+  %.11.i17.2 = load i64, ptr %.10.i16.2, align 8, !noalias !353
+  %.13.i19.2 = load i64, ptr %.35, align 8, !noalias !353
   %47 = shl i64 %.11.i17.2, 3
   %48 = mul i64 %47, %.13.i19.2
   %scevgep132 = getelementptr i8, ptr %36, i64 %48
   %scevgep133 = getelementptr i8, ptr %scevgep132, i64 %40
   %scevgep134 = getelementptr i8, ptr %scevgep133, i64 16
   store double 0.000000e+00, ptr %scevgep134, align 8
-  %.8.i59.2 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.8.i59.2 = load i64, ptr %.7.i, align 8, !noalias !356
   %.9.i60.2 = inttoptr i64 %.8.i59.2 to ptr
   %.10.i61.2 = getelementptr i8, ptr %.9.i60.2, i64 112
-  %.11.i62.2 = load i64, ptr %.10.i61.2, align 8, !noalias !348
-  %.13.i64.2 = load i64, ptr %.35, align 8, !noalias !348
+  %.11.i62.2 = load i64, ptr %.10.i61.2, align 8, !noalias !356
+  %.13.i64.2 = load i64, ptr %.35, align 8, !noalias !356
   %49 = shl i64 %.11.i62.2, 3
   %50 = mul i64 %49, %.13.i64.2
   %scevgep135 = getelementptr i8, ptr %36, i64 %50
@@ -10364,22 +10609,22 @@ B800.endif.endif:
   %scevgep137 = getelementptr i8, ptr %scevgep136, i64 16
   store double 0.000000e+00, ptr %scevgep137, align 8
   %.607.3 = add nuw i64 %.600228231, 4
-  %.8.i14.3 = load i64, ptr %.7.i, align 8, !noalias !345
+  %.8.i14.3 = load i64, ptr %.7.i, align 8, !noalias !353
   %.9.i15.3 = inttoptr i64 %.8.i14.3 to ptr
   %.10.i16.3 = getelementptr i8, ptr %.9.i15.3, i64 8
-  %.11.i17.3 = load i64, ptr %.10.i16.3, align 8, !noalias !345
-  %.13.i19.3 = load i64, ptr %.35, align 8, !noalias !345
+  %.11.i17.3 = load i64, ptr %.10.i16.3, align 8, !noalias !353
+  %.13.i19.3 = load i64, ptr %.35, align 8, !noalias !353
   %51 = shl i64 %.11.i17.3, 3
   %52 = mul i64 %51, %.13.i19.3
   %scevgep126 = getelementptr i8, ptr %36, i64 %52
   %scevgep127 = getelementptr i8, ptr %scevgep126, i64 %40
   %scevgep128 = getelementptr i8, ptr %scevgep127, i64 24
   store double 0.000000e+00, ptr %scevgep128, align 8
-  %.8.i59.3 = load i64, ptr %.7.i, align 8, !noalias !348
+  %.8.i59.3 = load i64, ptr %.7.i, align 8, !noalias !356
   %.9.i60.3 = inttoptr i64 %.8.i59.3 to ptr
   %.10.i61.3 = getelementptr i8, ptr %.9.i60.3, i64 112
-  %.11.i62.3 = load i64, ptr %.10.i61.3, align 8, !noalias !348
-  %.13.i64.3 = load i64, ptr %.35, align 8, !noalias !348
+  %.11.i62.3 = load i64, ptr %.10.i61.3, align 8, !noalias !356
+  %.13.i64.3 = load i64, ptr %.35, align 8, !noalias !356
   %53 = shl i64 %.11.i62.3, 3
   %54 = mul i64 %53, %.13.i64.3
   %scevgep129 = getelementptr i8, ptr %36, i64 %54
@@ -10397,28 +10642,28 @@ B1166.endif:
   %.847 = inttoptr i64 %.837 to ptr
   %.854 = load i64, ptr %.371, align 8
   %.855 = inttoptr i64 %.854 to ptr
-  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !365
+  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !373
   %.9.i51 = inttoptr i64 %.8.i50 to ptr
   %.10.i52 = getelementptr i8, ptr %.9.i51, i64 80
-  %.11.i53 = load i64, ptr %.10.i52, align 8, !noalias !365
-  %.13.i55 = load i64, ptr %.35, align 8, !noalias !365
+  %.11.i53 = load i64, ptr %.10.i52, align 8, !noalias !373
+  %.13.i55 = load i64, ptr %.35, align 8, !noalias !373
   %.14.i56 = mul nsw i64 %.13.i55, %.11.i53
   %.15.i57 = getelementptr double, ptr %.855, i64 %.14.i56
   %scevgep90 = getelementptr i8, ptr %.15.i57, i64 %35
   %.883 = load double, ptr %scevgep90, align 8
   %.884 = fcmp oeq double %.883, 1.000000e+00
-  %"$phi1166.1.2.2.in.v" = select i1 %.884, i64 408, i64 416
+  %"$phi1166.1.2.2.in.v" = select i1 %.884, i64 408, i64 440
   %"$phi1166.1.2.2.in" = getelementptr i8, ptr %.847, i64 %"$phi1166.1.2.2.in.v"
   %"$phi1166.1.2.2" = load i64, ptr %"$phi1166.1.2.2.in", align 8
   %.901 = getelementptr i8, ptr %.847, i64 408
   store i64 %"$phi1166.1.2.2", ptr %.901, align 8
   %.908 = load i64, ptr %.371, align 8
   %.909 = inttoptr i64 %.908 to ptr
-  %.8.i68 = load i64, ptr %.7.i, align 8, !noalias !368
+  %.8.i68 = load i64, ptr %.7.i, align 8, !noalias !376
   %.9.i69 = inttoptr i64 %.8.i68 to ptr
   %.10.i70 = getelementptr i8, ptr %.9.i69, i64 80
-  %.11.i71 = load i64, ptr %.10.i70, align 8, !noalias !368
-  %.13.i73 = load i64, ptr %.35, align 8, !noalias !368
+  %.11.i71 = load i64, ptr %.10.i70, align 8, !noalias !376
+  %.13.i73 = load i64, ptr %.35, align 8, !noalias !376
   %.14.i74 = mul nsw i64 %.13.i73, %.11.i71
   %.15.i75 = getelementptr double, ptr %.909, i64 %.14.i74
   %scevgep89 = getelementptr i8, ptr %.15.i75, i64 %35
@@ -10432,13 +10677,13 @@ define ptr @move_beside(ptr readonly %.1, ptr readonly %.2, i64 %.3, ptr %.4) lo
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
   %.20 = load ptr, ptr %.6, align 8
   ret ptr %.20
 }
 
 
-define i32 @_ZN18biped_adrc_kernels7samplesB4v118B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.inputs, ptr writeonly %arg.states, ptr %arg.codes, ptr %arg.impacts, ptr readonly %arg.teams) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels7samplesB4v119B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.walks, i64 %arg.count, i64 %arg.width, ptr readonly %arg.inputs, ptr writeonly %arg.states, ptr %arg.codes, ptr %arg.impacts, ptr readonly %arg.teams) local_unnamed_addr #0 {
 B0.endif:
   %.5.i1 = alloca ptr, align 8
   %.3.i = alloca i64, align 8
@@ -10502,7 +10747,7 @@ B442:
   %.410 = inttoptr i64 %.409 to ptr
   %.413 = load i64, ptr %arg.teams, align 8
   %.414 = mul nsw i64 %.413, %.374174176
-  %.10.i = call i32 @_ZN18biped_adrc_kernels11move_besideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr readonly %.410, ptr readonly %arg.walks, i64 %.414, ptr %arg.impacts) #0
+  %.10.i = call i32 @_ZN18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr readonly %.410, ptr readonly %arg.walks, i64 %.414, ptr %arg.impacts) #0
   %exitcond.not4 = icmp eq i64 %.255.1, %.374174176
   br i1 %exitcond.not4, label %B544.endif, label %B442
 
@@ -10623,7 +10868,7 @@ B864.endif:
   store double %.711, ptr %scevgep7, align 8
   %scevgep6 = getelementptr i8, ptr %lsr.iv, i64 -8
   store double %.715, ptr %scevgep6, align 8
-  %.722 = getelementptr i8, ptr %.570, i64 664
+  %.722 = getelementptr i8, ptr %.570, i64 688
   %.723 = load i64, ptr %.722, align 8
   %.724 = inttoptr i64 %.723 to ptr
   %.727 = getelementptr i8, ptr %.570, i64 80
@@ -10645,7 +10890,7 @@ entry:
   %.10 = alloca i64, align 8
   store i64 0, ptr %.10, align 8
   %excinfo = alloca ptr, align 8
-  %.14 = call i32 @_ZN18biped_adrc_kernels7samplesB4v118B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a(ptr nonnull %.10, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5, ptr %.6, ptr %.7, ptr %.8) #0
+  %.14 = call i32 @_ZN18biped_adrc_kernels7samplesB4v119B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a(ptr nonnull %.10, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5, ptr %.6, ptr %.7, ptr %.8) #0
   %cond = icmp eq i32 %.14, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -10853,11 +11098,11 @@ attributes #9 = { nounwind }
 !171 = distinct !{!171, !"_ZN18biped_adrc_kernels6brokenB3v19B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !172 = distinct !{!172, !4}
 !173 = !{!174}
-!174 = distinct !{!174, !175, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
-!175 = distinct !{!175, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!174 = distinct !{!174, !175, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
+!175 = distinct !{!175, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
 !176 = !{!177}
-!177 = distinct !{!177, !178, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad: %retptr"}
-!178 = distinct !{!178, !"_ZN18biped_adrc_kernels5solveB3v64B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad"}
+!177 = distinct !{!177, !178, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!178 = distinct !{!178, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
 !179 = !{!180}
 !180 = distinct !{!180, !181, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a: %retptr"}
 !181 = distinct !{!181, !"_ZN18biped_adrc_kernels4keepB3v63B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad10float64_2a10float64_2a"}
@@ -10927,126 +11172,134 @@ attributes #9 = { nounwind }
 !245 = distinct !{!245, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !246 = distinct !{!246, !247, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
 !247 = distinct !{!247, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!248 = !{!246}
-!249 = !{!250}
-!250 = distinct !{!250, !251, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!251 = distinct !{!251, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
-!252 = !{!253}
-!253 = distinct !{!253, !254, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!254 = distinct !{!254, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
-!255 = distinct !{!255, !4}
-!256 = distinct !{!256, !4}
-!257 = !{!258}
-!258 = distinct !{!258, !259, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
-!259 = distinct !{!259, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
-!260 = !{!261}
-!261 = distinct !{!261, !262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
-!262 = distinct !{!262, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
-!263 = !{!264}
-!264 = distinct !{!264, !265, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!265 = distinct !{!265, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!266 = !{!267, !264}
-!267 = distinct !{!267, !268, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!268 = distinct !{!268, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!269 = !{!270}
-!270 = distinct !{!270, !271, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!271 = distinct !{!271, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!272 = !{!273, !270}
-!273 = distinct !{!273, !274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!274 = distinct !{!274, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!275 = !{!276}
-!276 = distinct !{!276, !277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
-!277 = distinct !{!277, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
-!278 = !{!279}
-!279 = distinct !{!279, !280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!280 = distinct !{!280, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
-!281 = !{!282}
-!282 = distinct !{!282, !283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!283 = distinct !{!283, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
-!284 = !{!285}
-!285 = distinct !{!285, !286, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
-!286 = distinct !{!286, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
-!287 = !{!288}
-!288 = distinct !{!288, !289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
-!289 = distinct !{!289, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
-!290 = !{!291}
-!291 = distinct !{!291, !292, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29: %retptr"}
-!292 = distinct !{!292, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29"}
-!293 = !{!294}
-!294 = distinct !{!294, !295, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29: %retptr"}
-!295 = distinct !{!295, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29"}
-!296 = !{!297}
-!297 = distinct !{!297, !298, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29: %retptr"}
-!298 = distinct !{!298, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29"}
-!299 = !{!300}
-!300 = distinct !{!300, !301, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
-!301 = distinct !{!301, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
-!302 = !{!303}
-!303 = distinct !{!303, !304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
-!304 = distinct !{!304, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
-!305 = !{!306}
-!306 = distinct !{!306, !307, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
-!307 = distinct !{!307, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
-!308 = !{!309}
-!309 = distinct !{!309, !310, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
-!310 = distinct !{!310, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
-!311 = !{!312}
-!312 = distinct !{!312, !313, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29: %retptr"}
-!313 = distinct !{!313, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29"}
-!314 = !{!315}
-!315 = distinct !{!315, !316, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax: %retptr"}
-!316 = distinct !{!316, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax"}
-!317 = !{!318}
-!318 = distinct !{!318, !319, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
-!319 = distinct !{!319, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
-!320 = !{!321}
-!321 = distinct !{!321, !322, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!322 = distinct !{!322, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
-!323 = !{!324}
-!324 = distinct !{!324, !325, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!325 = distinct !{!325, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
-!326 = !{!327}
-!327 = distinct !{!327, !328, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
-!328 = distinct !{!328, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
-!329 = !{!330}
-!330 = distinct !{!330, !331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!331 = distinct !{!331, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
-!332 = !{!333}
-!333 = distinct !{!333, !334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
-!334 = distinct !{!334, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
-!335 = !{!336}
-!336 = distinct !{!336, !337, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!337 = distinct !{!337, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
-!338 = distinct !{!338, !4}
-!339 = !{!340}
-!340 = distinct !{!340, !341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!341 = distinct !{!341, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
-!342 = !{!343}
-!343 = distinct !{!343, !344, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax: %retptr"}
-!344 = distinct !{!344, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax"}
-!345 = !{!346}
-!346 = distinct !{!346, !347, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
-!347 = distinct !{!347, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
-!348 = !{!349}
-!349 = distinct !{!349, !350, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
-!350 = distinct !{!350, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
-!351 = distinct !{!351, !4}
-!352 = !{!353}
-!353 = distinct !{!353, !354, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
-!354 = distinct !{!354, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
-!355 = !{!356}
-!356 = distinct !{!356, !357, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
-!357 = distinct !{!357, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
-!358 = !{!359}
-!359 = distinct !{!359, !360, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
-!360 = distinct !{!360, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
-!361 = distinct !{!361, !4}
-!362 = !{!363}
-!363 = distinct !{!363, !364, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
-!364 = distinct !{!364, !"_ZN18biped_adrc_kernels7part_ofB4v116B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
-!365 = !{!366}
-!366 = distinct !{!366, !367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!367 = distinct !{!367, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
-!368 = !{!369}
-!369 = distinct !{!369, !370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!370 = distinct !{!370, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!248 = !{!249}
+!249 = distinct !{!249, !250, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!250 = distinct !{!250, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!251 = !{!252}
+!252 = distinct !{!252, !253, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!253 = distinct !{!253, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!254 = !{!255}
+!255 = distinct !{!255, !256, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!256 = distinct !{!256, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!257 = distinct !{!257, !4}
+!258 = distinct !{!258, !4}
+!259 = !{!260}
+!260 = distinct !{!260, !261, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!261 = distinct !{!261, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!262 = !{!263}
+!263 = distinct !{!263, !264, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
+!264 = distinct !{!264, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
+!265 = !{!266}
+!266 = distinct !{!266, !267, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
+!267 = distinct !{!267, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
+!268 = !{!269}
+!269 = distinct !{!269, !270, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!270 = distinct !{!270, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!271 = !{!272, !269}
+!272 = distinct !{!272, !273, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!273 = distinct !{!273, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!274 = !{!275}
+!275 = distinct !{!275, !276, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!276 = distinct !{!276, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!277 = !{!278, !275}
+!278 = distinct !{!278, !279, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!279 = distinct !{!279, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!280 = !{!281}
+!281 = distinct !{!281, !282, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!282 = distinct !{!282, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!283 = !{!284}
+!284 = distinct !{!284, !285, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!285 = distinct !{!285, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!286 = !{!287}
+!287 = distinct !{!287, !288, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!288 = distinct !{!288, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!289 = !{!290}
+!290 = distinct !{!290, !291, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!291 = distinct !{!291, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!292 = !{!293}
+!293 = distinct !{!293, !294, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
+!294 = distinct !{!294, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
+!295 = !{!296}
+!296 = distinct !{!296, !297, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
+!297 = distinct !{!297, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
+!298 = !{!299}
+!299 = distinct !{!299, !300, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29: %retptr"}
+!300 = distinct !{!300, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29"}
+!301 = !{!302}
+!302 = distinct !{!302, !303, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29: %retptr"}
+!303 = distinct !{!303, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29"}
+!304 = !{!305}
+!305 = distinct !{!305, !306, !"_ZN18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29: %retptr"}
+!306 = distinct !{!306, !"_ZN18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29"}
+!307 = !{!308}
+!308 = distinct !{!308, !309, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!309 = distinct !{!309, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!310 = !{!311}
+!311 = distinct !{!311, !312, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
+!312 = distinct !{!312, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
+!313 = !{!314}
+!314 = distinct !{!314, !315, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!315 = distinct !{!315, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!316 = !{!317}
+!317 = distinct !{!317, !318, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
+!318 = distinct !{!318, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
+!319 = !{!320}
+!320 = distinct !{!320, !321, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29: %retptr"}
+!321 = distinct !{!321, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29"}
+!322 = !{!323}
+!323 = distinct !{!323, !324, !"_ZN18biped_adrc_kernels7part_ofB4v112B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax: %retptr"}
+!324 = distinct !{!324, !"_ZN18biped_adrc_kernels7part_ofB4v112B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax"}
+!325 = !{!326}
+!326 = distinct !{!326, !327, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
+!327 = distinct !{!327, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
+!328 = !{!329}
+!329 = distinct !{!329, !330, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!330 = distinct !{!330, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!331 = !{!332}
+!332 = distinct !{!332, !333, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!333 = distinct !{!333, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!334 = !{!335}
+!335 = distinct !{!335, !336, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!336 = distinct !{!336, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!337 = !{!338}
+!338 = distinct !{!338, !339, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!339 = distinct !{!339, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!340 = !{!341}
+!341 = distinct !{!341, !342, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!342 = distinct !{!342, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!343 = !{!344}
+!344 = distinct !{!344, !345, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!345 = distinct !{!345, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!346 = distinct !{!346, !4}
+!347 = !{!348}
+!348 = distinct !{!348, !349, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!349 = distinct !{!349, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!350 = !{!351}
+!351 = distinct !{!351, !352, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax: %retptr"}
+!352 = distinct !{!352, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax"}
+!353 = !{!354}
+!354 = distinct !{!354, !355, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!355 = distinct !{!355, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!356 = !{!357}
+!357 = distinct !{!357, !358, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!358 = distinct !{!358, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
+!359 = distinct !{!359, !4}
+!360 = !{!361}
+!361 = distinct !{!361, !362, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
+!362 = distinct !{!362, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
+!363 = !{!364}
+!364 = distinct !{!364, !365, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!365 = distinct !{!365, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!366 = !{!367}
+!367 = distinct !{!367, !368, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!368 = distinct !{!368, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
+!369 = distinct !{!369, !4}
+!370 = !{!371}
+!371 = distinct !{!371, !372, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
+!372 = distinct !{!372, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
+!373 = !{!374}
+!374 = distinct !{!374, !375, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!375 = distinct !{!375, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!376 = !{!377}
+!377 = distinct !{!377, !378, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!378 = distinct !{!378, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}

@@ -1,15 +1,17 @@
-"""Several walks in sampled time side by side, each with the numbers that it has alone.
+"""Several walks side by side, each with the numbers that it has alone.
 
 The walks sit in the lanes of two blocks (`record.block_rows`): `now` has the states at a sample instant, `then`
-those on the way to the next one. Generated functions (`engine.stretch`) move all of them at once. Where another
-thing happens to a walk, it is moved by `hop`, as a walk alone is, and comes back at its next sample instant: at
-an impact and right after it, where a push switches, at an end of any kind. Of a walk in a lane the run r has
-the time, and the block alone has the state.
+those on the way to the next one; in continuous time a sample is a step of integration. Generated functions
+(`engine.stretch`) move all of them at once. Where another thing happens to a walk, it is moved by `hop`, as a
+walk alone is, and comes back at its next sample instant: at an impact and right after it, where a push switches,
+at an end of any kind. Of a walk in a lane the run r has the time, and the block alone has the state.
 
 A team s is what the lanes have in common, in a `Run` of its own: K, push and functions are for all lanes.
 """
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 
@@ -33,8 +35,12 @@ def hop(r: Run) -> int:
     """Move a run to its next sample instant (GOES_ON), or to its end as `stride` does, whose code it
     returns."""
     while True:
-        r.t_end = min(r.last, tick_time(r))
+        r.t_end = min(r.last, tick_time(r)) if r.period > 0.0 else r.last
+        r.pause = int(r.period == 0.0)
         code = go_on(r)
+        r.pause = 0
+        if code == PAUSED:
+            return GOES_ON
         if code == COMPLETED:
             if r.t < r.last:
                 return GOES_ON
@@ -46,7 +52,7 @@ def hop(r: Run) -> int:
         if code != 0 or r.struck == r.most:
             return code
         # with a clock that restarts at impacts this is true right after one
-        if at_tick(r.t, clock_start(r), r.period):
+        if r.period > 0.0 and at_tick(r.t, clock_start(r), r.period):
             return GOES_ON
 
 
@@ -73,9 +79,13 @@ def is_plain(r: Run) -> int:
     """1 where nothing is due in the next sample of a run but what is due in each: the torque that waits, and
     steps in their usual numbers; else 0.
     """
-    t, t1, part = r.t, tick_time(r), r.part
     # an arc begins with `arm`
-    usual = r.armed == 1 and t > r.t_arc and at_tick(t, clock_start(r), r.period)
+    t, part, usual = r.t, r.part, r.armed == 1 and r.t > r.t_arc
+    if r.period == 0.0:  # the last step before a break is for `hop`
+        r.t_end = r.last
+        return int(usual and 0 < r.done < steps(r, r.t_from, next_break(r)) - 1)
+    t1 = tick_time(r)
+    usual = usual and at_tick(t, clock_start(r), r.period)
     usual = usual and t1 <= r.last and next_switch(r, t, t1) == t1
     if part == 0.0:
         return int(usual and steps(r, t, t1) == steps(r, 0.0, r.period))
@@ -118,12 +128,13 @@ def leave(s: Run, lane: int, r: Run, block: Array) -> None:
     """Take the state and the event functions of a run out of its lane of a block."""
     get(s, lane, part_of(s, block, X), r.x0, r.nx)
     get(s, lane, part_of(s, block, VALUES), r.values, r.guards)
+    get(s, lane, part_of(s, block, SLOPE), r.dx0, r.moving)
 
 
 @unit
 def begin_sample(s: Run, lane: int, r: Run, block: Array) -> None:
     """Write the times of the next sample of a run, and its mark, to its lane of a block."""
-    t1 = tick_time(r)
+    t1 = tick_time(r) if r.period > 0.0 else r.t_from + (r.done + 1) * r.h
     block[lane] = r.t
     part_of(s, block, BREAK)[lane] = release_time(r) if r.part > 0.0 else t1
     part_of(s, block, NEXT)[lane] = t1
@@ -136,6 +147,7 @@ def enter(s: Run, lane: int, r: Run, block: Array) -> None:
     """Put a run into a lane of a block."""
     put(s, lane, r.x0, part_of(s, block, X), r.nx)
     put(s, lane, r.values, part_of(s, block, VALUES), r.guards)
+    put(s, lane, r.dx0, part_of(s, block, SLOPE), r.moving)
     block[s.lanes + lane], block[2 * s.lanes + lane] = r.step, r.t_start
     part_of(s, block, DROP)[lane] = r.drop
     part_of(s, block, FARTHEST)[lane] = r.farthest
@@ -166,7 +178,8 @@ def aim(s: Run, j: int, count: int, t0: Array, t_next: Array) -> None:
     block, w = s.then, part_of(s, s.then, WEIGHTS)
     for lane in range(s.lanes):
         t1 = t0[lane] + j * s.h if j < count else t_next[lane]
-        part_of(s, block, T1)[lane], part_of(s, block, LIMIT)[lane] = t1, left(t_next[lane])
+        part_of(s, block, T1)[lane] = t1
+        part_of(s, block, LIMIT)[lane] = left(t_next[lane]) if s.period > 0.0 else math.inf
         if s.lags > 0:
             four = weights(s.lag_speed * (t1 - block[lane]))
             w[lane], w[s.lanes + lane] = four[0], four[1]
@@ -191,6 +204,11 @@ def flight(s: Run, t0: Array, until: int, count: int) -> None:
 @unit
 def sample_all(s: Run) -> None:
     """Move all walks by one sample, from the block `now` to the block `then`."""
+    if s.period == 0.0:
+        copy(s.now, s.then, s.at[END] * s.lanes)
+        flight(s, s.now, NEXT, 1)
+        call(s.flow, s.K, s.then, s.then)
+        return
     call(s.tick, s.K, s.now, s.then)
     store_nodes(s)
     if s.part == 0.0:
@@ -222,7 +240,7 @@ def side_by_side(s: Run, walks: Ints, count: int, codes: Ints) -> int:
             if i >= 0:
                 r = run_at(walks[i])
                 if part_of(s, s.then, MARK)[lane] == 1.0:
-                    r.t = s.then[lane]
+                    r.t, r.done = s.then[lane], r.done + int(r.period == 0.0)
                     if is_plain(r) == 1:
                         begin_sample(s, lane, r, s.then)
                         continue

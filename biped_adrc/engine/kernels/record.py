@@ -174,6 +174,12 @@ class Run:
     """A node is kept every so many integration steps; 0 for never."""
     count: int
     """Number of nodes kept so far."""
+    pause: int
+    """1 where the march returns after each step, PAUSED."""
+    done: int
+    """Steps since the last break, of a march that has paused."""
+    t_from: float
+    """Time of that break [s]."""
     kept: int
     """Number of nodes before the sample that is made side by side."""
     room: int
