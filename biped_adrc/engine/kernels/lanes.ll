@@ -1,4 +1,4 @@
-; sources d9810375f12901c1700f5817d333e942, text 5a4ccf3ce729116cba6930745caa222b
+; sources 95234cdc4a8851c4949484a14b138dc2, text 5a4ccf3ce729116cba6930745caa222b
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null

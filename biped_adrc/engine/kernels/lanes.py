@@ -3,8 +3,8 @@
 The walks sit in the lanes of two blocks (`record.block_rows`): `now` has the states at a sample instant, `then`
 those on the way to the next one; in continuous time a sample is a step of integration. Generated functions
 (`engine.stretch`) move all of them at once. Where another thing happens to a walk, it is moved by `hop`, as a
-walk alone is, and comes back at its next sample instant: at an impact and right after it, where a push switches,
-at an end of any kind. Of a walk in a lane the run r has the time, and the block alone has the state.
+walk alone is, and comes back at its next sample instant: at an impact and right after it, where a push
+switches, at an end of any kind. Of a walk in a lane the run r has the time, and the block alone has the state.
 
 A team s is what the lanes have in common, in a `Run` of its own: K, push and functions are for all lanes.
 """
