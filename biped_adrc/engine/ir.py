@@ -16,6 +16,7 @@ depend on what else is compiled with it.
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import casadi as ca
@@ -225,11 +226,13 @@ class Listing:
         """Append a call of a function of the C library for each lane by itself."""
         kind, result = f"<{self.lanes} x double>", "poison"
         for i in range(self.lanes):
-            one = text
-            for x in re.findall(r"%\w+", text):
-                one = one.replace(x, self.raw(f"extractelement {kind} {x}, i64 {i}"), 1)
+            one = re.sub(r"%\w+", partial(self._of_lane, i), text)
             result = self.raw(f"insertelement {kind} {result}, double {self.raw(one)}, i64 {i}")
         return result
+
+    def _of_lane(self, i: int, name: re.Match[str]) -> str:
+        """Append the number of lane i of a value; return its name."""
+        return self.raw(f"extractelement <{self.lanes} x double> {name[0]}, i64 {i}")
 
     def at(self, base: str, i: int) -> str:
         """Append the address of place i of the vector `base`."""

@@ -52,23 +52,18 @@ class Lanes:
     slope, step, disturbance and what a node has; 0 for none."""
 
     @classmethod
-    def key(
-        cls, compiled: CompiledWalker, read: bool, pulled: bool | None = None
-    ) -> Hashable | None:
+    def key(cls, compiled: CompiledWalker, read: bool) -> Hashable | None:
         """What walks side by side have in common; None for a walk that goes by itself: with the exponential
-        method, with long steps, or with a force from outside at nodes that are kept.
-
-        read: whether nodes are kept. pulled: whether a force from outside acts, other than a stepper's; None:
-        what the plan says.
+        method, or with long steps. read: whether nodes are kept.
         """
         run, program = compiled.plan, compiled.program
-        pulled = bool(run["pulled"]) if pulled is None else pulled
-        clock = tuple(run[name] for name in ("period", "h", "part", "moving", "lags"))
+        # n_K: the curve's numbers stand at the end of K, also where no nodes are kept and no code reads them
+        numbers = tuple(run[name] for name in ("period", "h", "part", "moving", "lags", "n_K"))
         long = min(run["period"] or run["h"], run["h"]) > constants.RESOLUTION
-        if run["kind"] != constants.RK4 or long or (read and pulled):
+        if run["kind"] != constants.RK4 or long:
             return None
         curve = read and structure(program.numbers.curve)
-        return program.key, structure(compiled.terms), clock, curve
+        return program.key, structure(compiled.terms), numbers, curve
 
     @classmethod
     def of(cls, compiled: CompiledWalker, read: bool, lanes: int | None = None) -> Lanes:

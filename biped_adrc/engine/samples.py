@@ -314,7 +314,7 @@ class SampledWalks:
         """Put walk i into its lane, if it may go side by side with the first one that may."""
         key: Hashable = None
         if len(self.all) >= SIDE_BY_SIDE and isinstance(walk, CompiledWalk):
-            key = Lanes.key(walk.compiled, bool(walk.run["look"]), bool(walk.run["pulled"]))
+            key = Lanes.key(walk.compiled, bool(walk.run["look"]))
             if key is not None and not self._teams:
                 self._begin_teams(walk, key)
         if self._teams:

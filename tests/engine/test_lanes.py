@@ -1,5 +1,6 @@
 """Walks side by side have the bits that each has alone, whatever their number, neighbours and the width are."""
 
+import re
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -26,8 +27,17 @@ SETTINGS = {
         "controller.name": "NPD",
         **BEHIND_ENCODERS,
     },
+    "lagging motors, each with a time of its own": {
+        "hardware.lag": None,
+        "controller.name": "NPID",
+        **SAMPLED,
+    },
     "lagging motors": {"hardware.lag": "2 ms", "controller.name": "NPID", **SAMPLED},
     "torques beyond their bound at a sample instant": {"hardware.lag": "3 ms", **SAMPLED},
+    "a force on the hip": {
+        "pushes": [{"shape": "hip force", "force": 5.0, "step": 1, "onset": 0.05}],
+        **SAMPLED,
+    },
     "steps shorter than the period": {"run.h": "0.4 ms", "ground.drop": 0.004, **SAMPLED},
     "touchdowns noticed by kinematics": {"hardware.touchdown.name": "kinematics", **SAMPLED},
 }
@@ -50,6 +60,8 @@ def cases(values, count=6, curve=True):
     factors = [*(1.0 + 0.01 * k for k in range(count - 2)), 3.0, 0.2]
     for k, factor in enumerate(factors):
         more = {"run.seed": k, "errors.mass_width": 0.05, "run.impacts": 1 + k % 3}
+        if "hardware.lag" in values and values["hardware.lag"] is None:
+            more["hardware.lag"] = 1e-3 + 2e-4 * k
         case = trial_of(ba.Scenario("ADRC").replace(values | more)).case
         yield replace(case, v=factor * case.v, curve=case.curve if curve else None)
 
@@ -146,6 +158,34 @@ def test_a_return_map_of_many_starts_is_that_of_each():
         each = [strides(compiled, [start], 2.0)[0] for start in starts]
         assert all(map(same, many, each))
         assert not walker.sampled or any(walk.impacts for walk in many)
+
+
+def test_a_name_that_begins_as_another_one_is_not_taken_for_it():
+    """The operands of a function of the C library are lanes of its two values, whatever their numbers are."""
+    for count in range(2000):
+        listing = ir.Listing("v", 4)
+        listing._count = count
+        listing.new("call double @pow(double %v1, double %v12)")
+        known = {line.partition(" ")[0] for line in listing.lines} | {"%v1", "%v12"}
+        names = {name for line in listing.lines for name in re.findall(r"%\w+", line)}
+        assert names == known
+
+
+def test_a_walk_of_another_curve_is_restored_among_many(biped, gait):
+    """It has more numbers than the lanes have room for, and goes by itself; the others stay as they are."""
+    scenario = ba.Scenario("NPD", hardware={"period": 1e-3})
+    other = ba.Stepper(scenario, 1)
+    other.reset(seed=1)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
+    samples = []
+    for count in (SIDE_BY_SIDE, 2):
+        stepper = ba.Stepper(walker, count)
+        stepper.reset(start=gait.start(biped))
+        stepper.restore(1, other.save())
+        for _ in range(50):
+            sample = stepper.step()
+        samples.append(sample.x[:2])
+    assert np.array_equal(*samples)
 
 
 def test_a_stepper_of_many_is_that_of_few():

@@ -1,4 +1,4 @@
-; sources 95234cdc4a8851c4949484a14b138dc2, text 5a4ccf3ce729116cba6930745caa222b
+; sources caf77d898fc597a544ee361684de45c0, text 63893a29c3ff1c28d686b707da7507f8
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -25,9 +25,9 @@
 @_ZN08NumbaEnv18biped_adrc_kernels7rk4_sumB3v25B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2a10float64_2a10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython7numbers14int_power_impl12_3clocals_3e9int_powerB3v37B42c8tJTC_2fWQA93W1AaAIYBPIqRBFCjDSZRVAJmaQIAEdx = weak local_unnamed_addr global ptr null
-@.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd = internal constant [133 x i8] c"\80\04\95z\00\00\00\00\00\00\00\8C\08builtins\94\8C\0DOverflowError\94\93\94)\8C\09int_power\94\8CF/work/main/.venv/lib/python3.11/site-packages/numba/cpython/numbers.py\94K\DE\87\94\87\94."
-@.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd.sha1 = internal constant [20 x i8] c"\89(\CF6}\CD\B5\B0og\CC\E6\84t\C0\D7}a\C7\BD"
-@.const.picklebuf.8928cf367dcdb5b06f67cce68474c0d77d61c7bd = internal constant { ptr, i32, ptr, ptr, i32 } { ptr @.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd, i32 133, ptr @.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd.sha1, ptr null, i32 0 }
+@.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f = internal constant [131 x i8] c"\80\04\95x\00\00\00\00\00\00\00\8C\08builtins\94\8C\0DOverflowError\94\93\94)\8C\09int_power\94\8CD/work/t2/.venv/lib/python3.11/site-packages/numba/cpython/numbers.py\94K\DE\87\94\87\94."
+@.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f.sha1 = internal constant [20 x i8] c"\06Y\DC\C2c\85\F9d\A9\EB\07\11(\1D\DB\B46G\C1\1F"
+@.const.picklebuf.0659dcc26385f964a9eb0711281ddbb43647c11f = internal constant { ptr, i32, ptr, ptr, i32 } { ptr @.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f, i32 131, ptr @.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f.sha1, ptr null, i32 0 }
 @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366 = internal constant [69 x i8] c"\80\04\95:\00\00\00\00\00\00\00\8C\08builtins\94\8C\11ZeroDivisionError\94\93\94\8C\10division by zero\94\85\94N\87\94."
 @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366.sha1 = internal constant [20 x i8] c"\B2\80\08\A0\F8\8B\AD_\F0\F0$>\84\DA\B9\0C\AB\19\B3f"
 @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366 = internal constant { ptr, i32, ptr, ptr, i32 } { ptr @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366, i32 69, ptr @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366.sha1, ptr null, i32 0 }
@@ -86,42 +86,42 @@
 @_ZN08NumbaEnv18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels12begin_sampleB3v98B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9next_tickB3v75B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v52B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5enterB4v102B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11store_nodesB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v12B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels3aimB4v107B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels3aimB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6flightB4v111B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v112B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels10sample_allB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6flightB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10sample_allB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v87B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v88B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels12side_by_sideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB4v116B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29 = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels12side_by_sideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11move_besideB4v116B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB4v117B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v113B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29 = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7samplesB4v119B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a8int64_2a8int64_2a8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB4v120B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
@@ -3612,7 +3612,7 @@ B0.endif.if.if:
   br label %common.ret
 
 B0.endif.endif.if.if:
-  %excinfo.3.0 = phi ptr [ @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366, %B338.i ], [ @.const.picklebuf.8928cf367dcdb5b06f67cce68474c0d77d61c7bd, %B62.i ]
+  %excinfo.3.0 = phi ptr [ @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366, %B338.i ], [ @.const.picklebuf.0659dcc26385f964a9eb0711281ddbb43647c11f, %B62.i ]
   store ptr %excinfo.3.0, ptr %excinfo, align 8
   br label %common.ret
 
@@ -8920,6 +8920,7 @@ entry:
 
 define i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.r, ptr readonly %arg.block) local_unnamed_addr #6 {
 common.ret:
+  %.7.i10 = alloca ptr, align 8
   %.7.i7 = alloca ptr, align 8
   %.7.i3 = alloca ptr, align 8
   %.7.i1 = alloca ptr, align 8
@@ -8963,6 +8964,22 @@ common.ret:
   %.100 = getelementptr i8, ptr %arg.r, i64 96
   %.101 = load i64, ptr %.100, align 8
   %.11.i8 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i7, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i17, ptr %.99, i64 %.101) #0
+  %.8.i19 = load i64, ptr %.7.i, align 8, !noalias !268
+  %.9.i20 = inttoptr i64 %.8.i19 to ptr
+  %.10.i21 = getelementptr i8, ptr %.9.i20, i64 112
+  %.11.i22 = load i64, ptr %.10.i21, align 8, !noalias !268
+  %.13.i24 = load i64, ptr %.12.i, align 8, !noalias !268
+  %.14.i25 = mul nsw i64 %.13.i24, %.11.i22
+  %.15.i26 = getelementptr double, ptr %arg.block, i64 %.14.i25
+  %.128 = getelementptr i8, ptr %arg.r, i64 632
+  %.129 = load i64, ptr %.128, align 8
+  %.130 = inttoptr i64 %.129 to ptr
+  %.132 = load i64, ptr %.38, align 8
+  %0 = getelementptr double, ptr %.130, i64 %.132
+  %.134 = getelementptr i8, ptr %0, i64 24
+  %.135 = getelementptr i8, ptr %arg.r, i64 72
+  %.136 = load i64, ptr %.135, align 8
+  %.11.i11 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i10, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.15.i26, ptr %.134, i64 %.136) #0
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
@@ -8977,7 +8994,7 @@ entry:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #7 {
+define i32 @_ZN18biped_adrc_kernels12begin_sampleB3v98B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #7 {
 B0:
   %.17 = getelementptr i8, ptr %arg.r, i64 216
   %.19 = load double, ptr %.17, align 8
@@ -8986,13 +9003,13 @@ B0:
 
 B26:
   %.6.i = getelementptr i8, ptr %arg.r, i64 344
-  %.8.i = load double, ptr %.6.i, align 8, !noalias !268
+  %.8.i = load double, ptr %.6.i, align 8, !noalias !271
   %.8.i.i = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i.i = load i64, ptr %.8.i.i, align 8, !noalias !271
+  %.9.i.i = load i64, ptr %.8.i.i, align 8, !noalias !274
   %.10.i.i = icmp eq i64 %.9.i.i, 1
   %"$phi52.0.2.0.in.v.i.i" = select i1 %.10.i.i, i64 376, i64 232
   %"$phi52.0.2.0.in.i.i" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i"
-  %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !271
+  %"$phi52.0.2.0.i.i" = load double, ptr %"$phi52.0.2.0.in.i.i", align 8, !noalias !274
   %.15.i.i = fsub double %.8.i, %"$phi52.0.2.0.i.i"
   %.20.i.i = fdiv double %.15.i.i, %.19
   %.21.i.i = tail call double @llvm.floor.f64(double %.20.i.i)
@@ -9040,15 +9057,15 @@ B106:
 
 B150:
   %.79 = getelementptr i8, ptr %arg.r, i64 344
-  %.8.i2 = load double, ptr %.79, align 8, !noalias !274
+  %.8.i2 = load double, ptr %.79, align 8, !noalias !277
   %.8.i.i3 = getelementptr i8, ptr %arg.r, i64 152
-  %.9.i.i4 = load i64, ptr %.8.i.i3, align 8, !noalias !277
+  %.9.i.i4 = load i64, ptr %.8.i.i3, align 8, !noalias !280
   %.10.i.i5 = icmp eq i64 %.9.i.i4, 1
   %"$phi52.0.2.0.in.v.i.i6" = select i1 %.10.i.i5, i64 376, i64 232
   %"$phi52.0.2.0.in.i.i7" = getelementptr i8, ptr %arg.r, i64 %"$phi52.0.2.0.in.v.i.i6"
-  %"$phi52.0.2.0.i.i8" = load double, ptr %"$phi52.0.2.0.in.i.i7", align 8, !noalias !277
+  %"$phi52.0.2.0.i.i8" = load double, ptr %"$phi52.0.2.0.in.i.i7", align 8, !noalias !280
   %.39.i = fadd double %.89, %"$phi52.0.2.0.i.i8"
-  %.42.i = load double, ptr %.17, align 8, !noalias !274
+  %.42.i = load double, ptr %.17, align 8, !noalias !277
   %.15.i.i11 = fsub double %.8.i2, %.39.i
   %.20.i.i12 = fdiv double %.15.i.i11, %.42.i
   %.21.i.i13 = tail call double @llvm.floor.f64(double %.20.i.i12)
@@ -9072,30 +9089,30 @@ B108.i.i20:
 common.ret:
   %"$phi182.0.2.0" = phi double [ %"$phi106.0.2.0", %B106 ], [ %.63.i.i18, %B150 ], [ %.77.i.i25, %B108.i.i20 ]
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
-  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !280
+  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !283
   %.9.i = inttoptr i64 %.8.i28 to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 56
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !280
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !283
   %.12.i = getelementptr i8, ptr %arg.s, i64 560
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !280
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !283
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
   %.155 = getelementptr double, ptr %.15.i, i64 %arg.lane
   store double %"$phi182.0.2.0", ptr %.155, align 8
-  %.8.i30 = load i64, ptr %.7.i, align 8, !noalias !283
+  %.8.i30 = load i64, ptr %.7.i, align 8, !noalias !286
   %.9.i31 = inttoptr i64 %.8.i30 to ptr
   %.10.i32 = getelementptr i8, ptr %.9.i31, i64 64
-  %.11.i33 = load i64, ptr %.10.i32, align 8, !noalias !283
-  %.13.i35 = load i64, ptr %.12.i, align 8, !noalias !283
+  %.11.i33 = load i64, ptr %.10.i32, align 8, !noalias !286
+  %.13.i35 = load i64, ptr %.12.i, align 8, !noalias !286
   %.14.i36 = mul nsw i64 %.13.i35, %.11.i33
   %.15.i37 = getelementptr double, ptr %arg.block, i64 %.14.i36
   %.188 = getelementptr double, ptr %.15.i37, i64 %arg.lane
   store double %"$phi106.0.2.0", ptr %.188, align 8
-  %.8.i39 = load i64, ptr %.7.i, align 8, !noalias !286
+  %.8.i39 = load i64, ptr %.7.i, align 8, !noalias !289
   %.9.i40 = inttoptr i64 %.8.i39 to ptr
   %.10.i41 = getelementptr i8, ptr %.9.i40, i64 80
-  %.11.i42 = load i64, ptr %.10.i41, align 8, !noalias !286
-  %.13.i44 = load i64, ptr %.12.i, align 8, !noalias !286
+  %.11.i42 = load i64, ptr %.10.i41, align 8, !noalias !289
+  %.13.i44 = load i64, ptr %.12.i, align 8, !noalias !289
   %.14.i45 = mul nsw i64 %.13.i44, %.11.i42
   %.15.i46 = getelementptr double, ptr %arg.block, i64 %.14.i45
   %.224 = getelementptr double, ptr %.15.i46, i64 %arg.lane
@@ -9113,13 +9130,13 @@ define ptr @begin_sample(ptr readonly %.1, i64 %.2, ptr %.3, ptr writeonly %.4) 
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v98B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
   %.20 = load ptr, ptr %.6, align 8
   ret ptr %.20
 }
 
 
-define i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #6 {
+define i32 @_ZN18biped_adrc_kernels5enterB4v102B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr %arg.r, ptr writeonly %arg.block) local_unnamed_addr #6 {
 common.ret:
   %.6.i = alloca ptr, align 8
   %.7.i10 = alloca ptr, align 8
@@ -9129,11 +9146,11 @@ common.ret:
   %.8 = getelementptr i8, ptr %arg.r, i64 688
   %.9 = load i64, ptr %.8, align 8
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !289
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !292
   %.9.i = inttoptr i64 %.8.i to ptr
-  %.11.i = load i64, ptr %.9.i, align 8, !noalias !289
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !292
   %.12.i = getelementptr i8, ptr %arg.s, i64 560
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !289
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !292
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
   %.10 = inttoptr i64 %.9 to ptr
@@ -9142,11 +9159,11 @@ common.ret:
   %.11.i2 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.10, ptr %.15.i, i64 %.39) #0
   %.41 = getelementptr i8, ptr %arg.r, i64 664
   %.42 = load i64, ptr %.41, align 8
-  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !292
+  %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !295
   %.9.i3 = inttoptr i64 %.8.i2 to ptr
   %.10.i = getelementptr i8, ptr %.9.i3, i64 72
-  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !292
-  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !292
+  %.11.i4 = load i64, ptr %.10.i, align 8, !noalias !295
+  %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !295
   %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
   %.15.i8 = getelementptr double, ptr %arg.block, i64 %.14.i7
   %.43 = inttoptr i64 %.42 to ptr
@@ -9155,11 +9172,11 @@ common.ret:
   %.11.i5 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i3, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.43, ptr %.15.i8, i64 %.70) #0
   %.72 = getelementptr i8, ptr %arg.r, i64 696
   %.73 = load i64, ptr %.72, align 8
-  %.8.i10 = load i64, ptr %.7.i, align 8, !noalias !295
+  %.8.i10 = load i64, ptr %.7.i, align 8, !noalias !298
   %.9.i11 = inttoptr i64 %.8.i10 to ptr
   %.10.i12 = getelementptr i8, ptr %.9.i11, i64 88
-  %.11.i13 = load i64, ptr %.10.i12, align 8, !noalias !295
-  %.13.i15 = load i64, ptr %.12.i, align 8, !noalias !295
+  %.11.i13 = load i64, ptr %.10.i12, align 8, !noalias !298
+  %.13.i15 = load i64, ptr %.12.i, align 8, !noalias !298
   %.14.i16 = mul nsw i64 %.13.i15, %.11.i13
   %.15.i17 = getelementptr double, ptr %arg.block, i64 %.14.i16
   %.74 = inttoptr i64 %.73 to ptr
@@ -9181,40 +9198,40 @@ common.ret:
   store double %.108, ptr %.118, align 8
   %.120 = getelementptr i8, ptr %arg.r, i64 504
   %.122 = load double, ptr %.120, align 8
-  %.8.i19 = load i64, ptr %.7.i, align 8, !noalias !298
+  %.8.i19 = load i64, ptr %.7.i, align 8, !noalias !301
   %.9.i20 = inttoptr i64 %.8.i19 to ptr
   %.10.i21 = getelementptr i8, ptr %.9.i20, i64 32
-  %.11.i22 = load i64, ptr %.10.i21, align 8, !noalias !298
-  %.13.i24 = load i64, ptr %.12.i, align 8, !noalias !298
+  %.11.i22 = load i64, ptr %.10.i21, align 8, !noalias !301
+  %.13.i24 = load i64, ptr %.12.i, align 8, !noalias !301
   %.14.i25 = mul nsw i64 %.13.i24, %.11.i22
   %.15.i26 = getelementptr double, ptr %arg.block, i64 %.14.i25
   %.148 = getelementptr double, ptr %.15.i26, i64 %arg.lane
   store double %.122, ptr %.148, align 8
   %.150 = getelementptr i8, ptr %arg.r, i64 264
   %.152 = load double, ptr %.150, align 8
-  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !301
+  %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !304
   %.9.i29 = inttoptr i64 %.8.i28 to ptr
   %.10.i30 = getelementptr i8, ptr %.9.i29, i64 40
-  %.11.i31 = load i64, ptr %.10.i30, align 8, !noalias !301
-  %.13.i33 = load i64, ptr %.12.i, align 8, !noalias !301
+  %.11.i31 = load i64, ptr %.10.i30, align 8, !noalias !304
+  %.13.i33 = load i64, ptr %.12.i, align 8, !noalias !304
   %.14.i34 = mul nsw i64 %.13.i33, %.11.i31
   %.15.i35 = getelementptr double, ptr %arg.block, i64 %.14.i34
   %.178 = getelementptr double, ptr %.15.i35, i64 %arg.lane
   store double %.152, ptr %.178, align 8
   %.180 = getelementptr i8, ptr %arg.r, i64 296
   %.181 = load i64, ptr %.180, align 8
-  %.8.i37 = load i64, ptr %.7.i, align 8, !noalias !304
+  %.8.i37 = load i64, ptr %.7.i, align 8, !noalias !307
   %.9.i38 = inttoptr i64 %.8.i37 to ptr
   %.10.i39 = getelementptr i8, ptr %.9.i38, i64 48
-  %.11.i40 = load i64, ptr %.10.i39, align 8, !noalias !304
-  %.13.i42 = load i64, ptr %.12.i, align 8, !noalias !304
+  %.11.i40 = load i64, ptr %.10.i39, align 8, !noalias !307
+  %.13.i42 = load i64, ptr %.12.i, align 8, !noalias !307
   %.14.i43 = mul nsw i64 %.13.i42, %.11.i40
   %.15.i44 = getelementptr double, ptr %arg.block, i64 %.14.i43
   %.182 = inttoptr i64 %.181 to ptr
   %.208 = getelementptr i8, ptr %arg.r, i64 72
   %.209 = load i64, ptr %.208, align 8
   %.11.i11 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i10, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr readonly %.182, ptr %.15.i44, i64 %.209) #0
-  %.10.i13 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr nonnull %arg.r, ptr nonnull %arg.block) #0
+  %.10.i13 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v98B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %arg.lane, ptr nonnull %arg.r, ptr nonnull %arg.block) #0
   store ptr null, ptr %retptr, align 8
   ret i32 0
 }
@@ -9223,264 +9240,274 @@ common.ret:
 define ptr @enter(ptr readonly %.1, i64 %.2, ptr %.3, ptr writeonly %.4) local_unnamed_addr #6 {
 entry:
   %.6 = alloca ptr, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels5enterB4v102B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, ptr %.4) #0
   %.20 = load ptr, ptr %.6, align 8
   ret ptr %.20
 }
 
-define i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels11store_nodesB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.load_of) local_unnamed_addr {
 B0:
   %.7.i1 = alloca ptr, align 8
-  %.8 = getelementptr i8, ptr %arg.s, i64 64
-  %.9 = load i64, ptr %.8, align 8
-  %.10.not = icmp eq i64 %.9, 0
-  br i1 %.10.not, label %common.ret, label %B28.endif.endif
+  %.11 = getelementptr i8, ptr %arg.s, i64 64
+  %.12 = load i64, ptr %.11, align 8
+  %.13.not = icmp eq i64 %.12, 0
+  br i1 %.13.not, label %common.ret, label %B28.endif.endif
 
-B274:
-  %.1675153 = phi i64 [ %.174, %B696 ], [ 0, %B274.preheader ]
-  %.174 = add nuw nsw i64 %.1675153, 1
-  %.204 = load i64, ptr %sunkaddr, align 8
-  %.205 = inttoptr i64 %.204 to ptr
-  %0 = shl i64 %.1675153, 3
-  %scevgep5 = getelementptr i8, ptr %.205, i64 %0
-  %.208 = load i64, ptr %scevgep5, align 8
-  %.209.not = icmp eq i64 %.208, 0
-  br i1 %.209.not, label %B696, label %B310.endif
+B264:
+  %.1735355 = phi i64 [ %.180, %B686 ], [ 0, %B264.preheader ]
+  %.180 = add nuw nsw i64 %.1735355, 1
+  %.210 = load i64, ptr %sunkaddr, align 8
+  %.211 = inttoptr i64 %.210 to ptr
+  %0 = shl i64 %.1735355, 3
+  %scevgep5 = getelementptr i8, ptr %.211, i64 %0
+  %.214 = load i64, ptr %scevgep5, align 8
+  %.215.not = icmp eq i64 %.214, 0
+  br i1 %.215.not, label %B686, label %B300.endif
 
-B696:
-  %exitcond.not = icmp eq i64 %.13.i, %.174
-  br i1 %exitcond.not, label %common.ret, label %B274
+B686:
+  %exitcond.not = icmp eq i64 %.13.i, %.180
+  br i1 %exitcond.not, label %common.ret, label %B264
 
 common.ret:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
 B28.endif.endif:
-  %.16 = getelementptr i8, ptr %arg.s, i64 272
-  %.17 = load i64, ptr %.16, align 8
-  %.18 = inttoptr i64 %.17 to ptr
-  %.20 = getelementptr i8, ptr %arg.s, i64 592
-  %.21 = load i64, ptr %.20, align 8
-  %.22 = inttoptr i64 %.21 to ptr
-  %.24 = getelementptr i8, ptr %arg.s, i64 600
-  %.25 = load i64, ptr %.24, align 8
-  %.26 = inttoptr i64 %.25 to ptr
-  %.27 = inttoptr i64 %.9 to ptr
-  tail call void %.27(ptr %.18, ptr %.22, ptr %.26)
-  %.32 = load i64, ptr %.20, align 8
-  %.33 = inttoptr i64 %.32 to ptr
+  %.19 = getelementptr i8, ptr %arg.s, i64 272
+  %.20 = load i64, ptr %.19, align 8
+  %.21 = inttoptr i64 %.20 to ptr
+  %.23 = getelementptr i8, ptr %arg.s, i64 592
+  %.24 = load i64, ptr %.23, align 8
+  %.25 = inttoptr i64 %.24 to ptr
+  %.27 = getelementptr i8, ptr %arg.s, i64 600
+  %.28 = load i64, ptr %.27, align 8
+  %.29 = inttoptr i64 %.28 to ptr
+  %.30 = inttoptr i64 %.12 to ptr
+  tail call void %.30(ptr %.21, ptr %.25, ptr %.29)
+  %.35 = load i64, ptr %.23, align 8
+  %.36 = inttoptr i64 %.35 to ptr
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !307
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !310
   %.9.i = inttoptr i64 %.8.i to ptr
-  %.10.i = getelementptr i8, ptr %.9.i, i64 8
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !307
+  %.10.i = getelementptr i64, ptr %.9.i, i64 %arg.load_of
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !310
   %.12.i = getelementptr i8, ptr %arg.s, i64 560
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !307
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !310
   %.14.i = mul i64 %.13.i, %.11.i
-  %.15.i = getelementptr double, ptr %.33, i64 %.14.i
-  %.62 = getelementptr i8, ptr %arg.s, i64 72
-  %.63 = load i64, ptr %.62, align 8
-  %.67 = mul i64 %.63, %.13.i
-  %.68 = getelementptr double, ptr %.15.i, i64 %.67
-  %.70 = getelementptr i8, ptr %arg.s, i64 456
-  %.71 = load i64, ptr %.70, align 8
-  %.72 = add nsw i64 %.71, -4
-  %.16152.not = icmp slt i64 %.13.i, 1
-  br i1 %.16152.not, label %common.ret, label %B274.preheader
+  %.15.i = getelementptr double, ptr %.36, i64 %.14.i
+  %.68 = getelementptr i8, ptr %arg.s, i64 72
+  %.69 = load i64, ptr %.68, align 8
+  %.73 = mul i64 %.69, %.13.i
+  %.74 = getelementptr double, ptr %.15.i, i64 %.73
+  %.76 = getelementptr i8, ptr %arg.s, i64 456
+  %.77 = load i64, ptr %.76, align 8
+  %.78 = add nsw i64 %.77, -4
+  %.16754.not = icmp slt i64 %.13.i, 1
+  br i1 %.16754.not, label %common.ret, label %B264.preheader
 
-B274.preheader:
+B264.preheader:
   %sunkaddr = getelementptr i8, ptr %arg.s, i64 608
-  br label %B274
+  br label %B264
 
-B310.endif:
-  %.218 = inttoptr i64 %.208 to ptr
-  %.219 = getelementptr i8, ptr %.218, i64 624
-  %.220 = load i64, ptr %.219, align 8
-  %.221 = inttoptr i64 %.220 to ptr
-  %.222 = getelementptr i8, ptr %.218, i64 408
-  %.223 = load i64, ptr %.222, align 8
-  %.224 = getelementptr i8, ptr %.218, i64 456
-  %.225 = load i64, ptr %.224, align 8
-  %.226 = mul nsw i64 %.225, %.223
-  %.227 = getelementptr double, ptr %.221, i64 %.226
-  %.230 = load i64, ptr %.20, align 8
-  %.231 = inttoptr i64 %.230 to ptr
-  %scevgep4 = getelementptr i8, ptr %.231, i64 %0
-  %.234 = load double, ptr %scevgep4, align 8
-  %.235 = getelementptr i8, ptr %.218, i64 352
-  %.237 = load double, ptr %.235, align 8
-  store double %.234, ptr %.227, align 8
-  %.240 = getelementptr i8, ptr %.227, i64 8
-  store double %.237, ptr %.240, align 8
-  %scevgep3 = getelementptr i8, ptr %.68, i64 %0
-  %.245 = load double, ptr %scevgep3, align 8
-  %.248 = load i64, ptr %.12.i, align 8
-  %1 = shl i64 %.248, 3
-  %scevgep = getelementptr i8, ptr %.68, i64 %1
+B300.endif:
+  %.224 = inttoptr i64 %.214 to ptr
+  %.225 = getelementptr i8, ptr %.224, i64 624
+  %.226 = load i64, ptr %.225, align 8
+  %.227 = inttoptr i64 %.226 to ptr
+  %.228 = getelementptr i8, ptr %.224, i64 408
+  %.229 = load i64, ptr %.228, align 8
+  %.230 = getelementptr i8, ptr %.224, i64 456
+  %.231 = load i64, ptr %.230, align 8
+  %.232 = mul nsw i64 %.231, %.229
+  %.233 = getelementptr double, ptr %.227, i64 %.232
+  %.236 = load i64, ptr %.23, align 8
+  %.237 = inttoptr i64 %.236 to ptr
+  %scevgep4 = getelementptr i8, ptr %.237, i64 %0
+  %.240 = load double, ptr %scevgep4, align 8
+  %.241 = getelementptr i8, ptr %.224, i64 352
+  %.243 = load double, ptr %.241, align 8
+  store double %.240, ptr %.233, align 8
+  %.246 = getelementptr i8, ptr %.233, i64 8
+  store double %.243, ptr %.246, align 8
+  %scevgep3 = getelementptr i8, ptr %.74, i64 %0
+  %.251 = load double, ptr %scevgep3, align 8
+  %.254 = load i64, ptr %.12.i, align 8
+  %1 = shl i64 %.254, 3
+  %scevgep = getelementptr i8, ptr %.74, i64 %1
   %scevgep2 = getelementptr i8, ptr %scevgep, i64 %0
-  %.253 = load double, ptr %scevgep2, align 8
-  %.254 = getelementptr i8, ptr %.227, i64 16
-  store double %.245, ptr %.254, align 8
-  %.256 = getelementptr i8, ptr %.227, i64 24
-  store double %.253, ptr %.256, align 8
-  %.260 = load i64, ptr %.24, align 8
-  %.261 = inttoptr i64 %.260 to ptr
-  %.262 = getelementptr i8, ptr %.227, i64 32
-  %.11.i2 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.1675153, ptr readonly %.261, ptr %.262, i64 %.72) #0
-  %.270 = load i64, ptr %.222, align 8
-  %.271 = add nsw i64 %.270, 1
-  %.272 = getelementptr i8, ptr %.218, i64 448
-  %.273 = load i64, ptr %.272, align 8
-  %.274 = add nsw i64 %.273, -1
-  %.13.i1 = tail call i64 @llvm.smin.i64(i64 %.274, i64 %.271)
-  store i64 %.13.i1, ptr %.222, align 8
-  br label %B696
+  %.259 = load double, ptr %scevgep2, align 8
+  %.260 = getelementptr i8, ptr %.233, i64 16
+  store double %.251, ptr %.260, align 8
+  %.262 = getelementptr i8, ptr %.233, i64 24
+  store double %.259, ptr %.262, align 8
+  %.266 = load i64, ptr %.27, align 8
+  %.267 = inttoptr i64 %.266 to ptr
+  %.268 = getelementptr i8, ptr %.233, i64 32
+  %.11.i2 = call i32 @_ZN18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.1735355, ptr readonly %.267, ptr %.268, i64 %.78) #0
+  %.276 = load i64, ptr %.228, align 8
+  %.277 = add nsw i64 %.276, 1
+  %.278 = getelementptr i8, ptr %.224, i64 448
+  %.279 = load i64, ptr %.278, align 8
+  %.280 = add nsw i64 %.279, -1
+  %.13.i1 = tail call i64 @llvm.smin.i64(i64 %.280, i64 %.277)
+  store i64 %.13.i1, ptr %.228, align 8
+  br label %B686
 }
 
 
-define ptr @store_nodes(ptr readonly %.1) local_unnamed_addr #0 {
+define ptr @store_nodes(ptr readonly %.1, i64 %.2) local_unnamed_addr #0 {
 entry:
-  %.3 = alloca ptr, align 8
-  store ptr null, ptr %.3, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
-  %.17 = load ptr, ptr %.3, align 8
-  ret ptr %.17
+  %.4 = alloca ptr, align 8
+  store ptr null, ptr %.4, align 8
+  %.8 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax(ptr nonnull %.4, ptr nonnull poison, ptr %.1, i64 %.2) #0
+  %.18 = load ptr, ptr %.4, align 8
+  ret ptr %.18
 }
 
 
-define i32 @_ZN18biped_adrc_kernels3aimB4v107B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, i64 %arg.j, i64 %arg.count, ptr readonly %arg.t0, ptr readonly %arg.t_next) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels3aimB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, i64 %arg.j, i64 %arg.count, ptr readonly %arg.t0, ptr readonly %arg.t_next) local_unnamed_addr #0 {
 B0.endif.endif:
-  %.342 = alloca [4 x double], align 8
+  %.359 = alloca [4 x double], align 8
   %excinfo.5 = alloca ptr, align 8
   %.20 = getelementptr i8, ptr %arg.s, i64 592
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !310
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !313
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 96
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !310
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !313
   %.12.i = getelementptr i8, ptr %arg.s, i64 560
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !310
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !313
   %.14.i = mul i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.22, i64 %.14.i
-  %.14399.not = icmp slt i64 %.13.i, 1
-  br i1 %.14399.not, label %common.ret, label %B114.lr.ph
+  %.144101.not = icmp slt i64 %.13.i, 1
+  br i1 %.144101.not, label %common.ret, label %B116.lr.ph
 
-B114:
-  %.14995100 = phi i64 [ 0, %B114.lr.ph ], [ %.156, %B604 ]
-  %.156 = add nuw nsw i64 %.14995100, 1
-  %0 = shl i64 %.14995100, 3
-  br i1 %1, label %B128, label %B166
+B116:
+  %.15097102 = phi i64 [ 0, %B116.lr.ph ], [ %.157, %B688 ]
+  %.157 = add nuw nsw i64 %.15097102, 1
+  %0 = shl i64 %.15097102, 3
+  br i1 %1, label %B130, label %B168
 
-B128:
-  %scevgep37 = getelementptr i8, ptr %arg.t0, i64 %0
-  %.191 = load double, ptr %scevgep37, align 8
-  %.195 = load double, ptr %sunkaddr, align 8
-  %.198 = fmul double %.195, %.197
-  %.199 = fadd double %.191, %.198
-  br label %B180.endif
+B130:
+  %scevgep38 = getelementptr i8, ptr %arg.t0, i64 %0
+  %.192 = load double, ptr %scevgep38, align 8
+  %.196 = load double, ptr %sunkaddr, align 8
+  %.199 = fmul double %.196, %.198
+  %.200 = fadd double %.192, %.199
+  br label %B182.endif
 
-B166:
+B168:
   %scevgep29 = getelementptr i8, ptr %arg.t_next, i64 %0
-  %.207 = load double, ptr %scevgep29, align 8
-  br label %B180.endif
+  %.208 = load double, ptr %scevgep29, align 8
+  br label %B182.endif
 
-B254:
+B256:
   %scevgep30 = getelementptr i8, ptr %arg.t_next, i64 %0
-  %.258 = load double, ptr %scevgep30, align 8
-  %.15.i16 = tail call double @nextafter(double %.258, double 0xFFF0000000000000), !noalias !313
-  br label %B318.endif
+  %.259 = load double, ptr %scevgep30, align 8
+  %.15.i16 = tail call double @nextafter(double %.259, double 0xFFF0000000000000), !noalias !316
+  br label %B320.endif
 
-B388:
-  %.332 = load double, ptr %sunkaddr38, align 8
+B390:
+  %.331 = load i64, ptr %sunkaddr39, align 8
+  %.332 = inttoptr i64 %.331 to ptr
+  %scevgep33 = getelementptr i8, ptr %.332, i64 %0
+  %.335 = load i64, ptr %scevgep33, align 8
+  %.336.not = icmp eq i64 %.335, 0
+  br i1 %.336.not, label %B688, label %B424
+
+B424:
+  %.346 = inttoptr i64 %.335 to ptr
+  %.347 = getelementptr i8, ptr %.346, i64 256
+  %.349 = load double, ptr %.347, align 8
   %scevgep32 = getelementptr i8, ptr %.22, i64 %0
-  %.336 = load double, ptr %scevgep32, align 8
-  %.338 = fsub double %"$phi180.1.2.1", %.336
-  %.341 = fmul double %.332, %.338
-  %.346 = call i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr nonnull %.342, ptr nonnull %excinfo.5, double %.341)
-  switch i32 %.346, label %common.ret [
-    i32 -2, label %B388.endif
-    i32 0, label %B388.endif
+  %.353 = load double, ptr %scevgep32, align 8
+  %.355 = fsub double %"$phi182.1.2.1", %.353
+  %.358 = fmul double %.349, %.355
+  %.363 = call i32 @_ZN18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd(ptr nonnull %.359, ptr nonnull %excinfo.5, double %.358)
+  switch i32 %.363, label %common.ret [
+    i32 -2, label %B424.endif
+    i32 0, label %B424.endif
   ], !prof !8
 
-B604:
-  %exitcond.not = icmp eq i64 %.13.i, %.156
-  br i1 %exitcond.not, label %common.ret, label %B114
+B688:
+  %exitcond.not = icmp eq i64 %.13.i, %.157
+  br i1 %exitcond.not, label %common.ret, label %B116
 
 common.ret:
-  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %retptr, %B604 ], [ %excinfo, %B388 ]
-  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ 0, %B604 ], [ %.346, %B388 ]
+  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %retptr, %B688 ], [ %excinfo, %B424 ]
+  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ 0, %B688 ], [ %.363, %B424 ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B114.lr.ph:
-  %.197 = sitofp i64 %arg.j to double
+B116.lr.ph:
+  %.198 = sitofp i64 %arg.j to double
   %1 = icmp slt i64 %arg.j, %arg.count
-  %sunkaddr41 = getelementptr i8, ptr %arg.s, i64 216
-  %sunkaddr44 = getelementptr i8, ptr %arg.s, i64 160
+  %sunkaddr42 = getelementptr i8, ptr %arg.s, i64 216
+  %sunkaddr45 = getelementptr i8, ptr %arg.s, i64 160
   %sunkaddr = getelementptr i8, ptr %arg.s, i64 248
-  %sunkaddr38 = getelementptr i8, ptr %arg.s, i64 256
-  %sunkaddr45 = getelementptr inbounds nuw i8, ptr %.342, i64 24
-  %sunkaddr46 = getelementptr inbounds nuw i8, ptr %.342, i64 16
-  %sunkaddr47 = getelementptr inbounds nuw i8, ptr %.342, i64 8
-  br label %B114
+  %sunkaddr39 = getelementptr i8, ptr %arg.s, i64 608
+  %sunkaddr46 = getelementptr inbounds nuw i8, ptr %.359, i64 24
+  %sunkaddr47 = getelementptr inbounds nuw i8, ptr %.359, i64 16
+  %sunkaddr48 = getelementptr inbounds nuw i8, ptr %.359, i64 8
+  br label %B116
 
-B180.endif:
-  %"$phi180.1.2.1" = phi double [ %.207, %B166 ], [ %.199, %B128 ]
-  %.8.i8 = load i64, ptr %.7.i, align 8, !noalias !316
+B182.endif:
+  %"$phi182.1.2.1" = phi double [ %.208, %B168 ], [ %.200, %B130 ]
+  %.8.i8 = load i64, ptr %.7.i, align 8, !noalias !319
   %.9.i9 = inttoptr i64 %.8.i8 to ptr
   %.10.i10 = getelementptr i8, ptr %.9.i9, i64 16
-  %.11.i11 = load i64, ptr %.10.i10, align 8, !noalias !316
-  %.13.i13 = load i64, ptr %.12.i, align 8, !noalias !316
+  %.11.i11 = load i64, ptr %.10.i10, align 8, !noalias !319
+  %.13.i13 = load i64, ptr %.12.i, align 8, !noalias !319
   %2 = shl i64 %.11.i11, 3
   %3 = mul i64 %2, %.13.i13
-  %scevgep35 = getelementptr i8, ptr %.22, i64 %3
-  %scevgep36 = getelementptr i8, ptr %scevgep35, i64 %0
-  store double %"$phi180.1.2.1", ptr %scevgep36, align 8
-  %.251 = load double, ptr %sunkaddr41, align 8
-  %.252 = fcmp ogt double %.251, 0.000000e+00
-  br i1 %.252, label %B254, label %B318.endif
+  %scevgep36 = getelementptr i8, ptr %.22, i64 %3
+  %scevgep37 = getelementptr i8, ptr %scevgep36, i64 %0
+  store double %"$phi182.1.2.1", ptr %scevgep37, align 8
+  %.252 = load double, ptr %sunkaddr42, align 8
+  %.253 = fcmp ogt double %.252, 0.000000e+00
+  br i1 %.253, label %B256, label %B320.endif
 
-B318.endif:
-  %"$phi318.1.2.1" = phi double [ 0x7FF0000000000000, %B180.endif ], [ %.15.i16, %B254 ]
-  %.8.i18 = load i64, ptr %.7.i, align 8, !noalias !319
+B320.endif:
+  %"$phi320.1.2.1" = phi double [ 0x7FF0000000000000, %B182.endif ], [ %.15.i16, %B256 ]
+  %.8.i18 = load i64, ptr %.7.i, align 8, !noalias !322
   %.9.i19 = inttoptr i64 %.8.i18 to ptr
   %.10.i20 = getelementptr i8, ptr %.9.i19, i64 24
-  %.11.i21 = load i64, ptr %.10.i20, align 8, !noalias !319
-  %.13.i23 = load i64, ptr %.12.i, align 8, !noalias !319
+  %.11.i21 = load i64, ptr %.10.i20, align 8, !noalias !322
+  %.13.i23 = load i64, ptr %.12.i, align 8, !noalias !322
   %4 = shl i64 %.11.i21, 3
   %5 = mul i64 %4, %.13.i23
-  %scevgep33 = getelementptr i8, ptr %.22, i64 %5
-  %scevgep34 = getelementptr i8, ptr %scevgep33, i64 %0
-  store double %"$phi318.1.2.1", ptr %scevgep34, align 8
-  %.325 = load i64, ptr %sunkaddr44, align 8
-  %.326 = icmp sgt i64 %.325, 0
-  br i1 %.326, label %B388, label %B604
+  %scevgep34 = getelementptr i8, ptr %.22, i64 %5
+  %scevgep35 = getelementptr i8, ptr %scevgep34, i64 %0
+  store double %"$phi320.1.2.1", ptr %scevgep35, align 8
+  %.326 = load i64, ptr %sunkaddr45, align 8
+  %.327 = icmp sgt i64 %.326, 0
+  br i1 %.327, label %B390, label %B688
 
-B388.endif:
-  %.356.fca.3.load = load double, ptr %sunkaddr45, align 8
-  %.356.fca.2.load = load double, ptr %sunkaddr46, align 8
-  %.356.fca.1.load = load double, ptr %sunkaddr47, align 8
-  %.356.fca.0.load = load double, ptr %.342, align 8
+B424.endif:
+  %.373.fca.3.load = load double, ptr %sunkaddr46, align 8
+  %.373.fca.2.load = load double, ptr %sunkaddr47, align 8
+  %.373.fca.1.load = load double, ptr %sunkaddr48, align 8
+  %.373.fca.0.load = load double, ptr %.359, align 8
   %scevgep31 = getelementptr i8, ptr %.15.i, i64 %0
-  store double %.356.fca.0.load, ptr %scevgep31, align 8
-  %.374 = load i64, ptr %.12.i, align 8
-  %6 = shl i64 %.374, 3
+  store double %.373.fca.0.load, ptr %scevgep31, align 8
+  %.391 = load i64, ptr %.12.i, align 8
+  %6 = shl i64 %.391, 3
   %scevgep27 = getelementptr i8, ptr %.15.i, i64 %6
   %scevgep28 = getelementptr i8, ptr %scevgep27, i64 %0
-  store double %.356.fca.1.load, ptr %scevgep28, align 8
-  %.388 = load i64, ptr %.12.i, align 8
-  %.idx = shl i64 %.388, 4
+  store double %.373.fca.1.load, ptr %scevgep28, align 8
+  %.405 = load i64, ptr %.12.i, align 8
+  %.idx = shl i64 %.405, 4
   %7 = getelementptr i8, ptr %.15.i, i64 %.idx
   %scevgep26 = getelementptr i8, ptr %7, i64 %0
-  store double %.356.fca.2.load, ptr %scevgep26, align 8
-  %.397 = load i64, ptr %.12.i, align 8
-  %.idx86 = mul i64 %.397, 24
-  %8 = getelementptr i8, ptr %.15.i, i64 %.idx86
+  store double %.373.fca.2.load, ptr %scevgep26, align 8
+  %.414 = load i64, ptr %.12.i, align 8
+  %.idx88 = mul i64 %.414, 24
+  %8 = getelementptr i8, ptr %.15.i, i64 %.idx88
   %scevgep = getelementptr i8, ptr %8, i64 %0
-  store double %.356.fca.3.load, ptr %scevgep, align 8
-  br label %B604
+  store double %.373.fca.3.load, ptr %scevgep, align 8
+  br label %B688
 }
 
 
@@ -9489,7 +9516,7 @@ entry:
   %.7 = alloca ptr, align 8
   store ptr null, ptr %.7, align 8
   %excinfo = alloca ptr, align 8
-  %.11 = call i32 @_ZN18biped_adrc_kernels3aimB4v107B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #0
+  %.11 = call i32 @_ZN18biped_adrc_kernels3aimB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #0
   %cond = icmp eq i32 %.11, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9502,81 +9529,173 @@ common.ret:
   ret ptr %.21
 }
 
-define i32 @_ZN18biped_adrc_kernels6flightB4v111B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, ptr readonly %arg.t0, i64 %arg.until, i64 %arg.count) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels6flightB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, ptr readonly %arg.t0, i64 %arg.until, i64 %arg.count) local_unnamed_addr {
 B0.endif.endif:
-  %.3.i = alloca ptr, align 8
-  %.228 = alloca ptr, align 8
+  %.4.i = alloca ptr, align 8
+  %.229 = alloca ptr, align 8
   %excinfo.3 = alloca ptr, align 8
+  %.354 = alloca ptr, align 8
+  %excinfo.6 = alloca ptr, align 8
+  %.416 = alloca ptr, align 8
+  %excinfo.8 = alloca ptr, align 8
+  %.521 = alloca ptr, align 8
+  %excinfo.11 = alloca ptr, align 8
   %.16 = getelementptr i8, ptr %arg.s, i64 592
   %.17 = load i64, ptr %.16, align 8
   %.18 = inttoptr i64 %.17 to ptr
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !322
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !325
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i64, ptr %.9.i, i64 %arg.until
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !322
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !325
   %.12.i = getelementptr i8, ptr %arg.s, i64 560
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !322
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !325
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.18, i64 %.14.i
-  %.13049.not = icmp slt i64 %arg.count, 1
-  br i1 %.13049.not, label %common.ret, label %B88.endif.preheader
+  %.131117.not = icmp slt i64 %arg.count, 1
+  br i1 %.131117.not, label %common.ret, label %B90.endif.preheader
 
-B88.endif.preheader:
-  %sunkaddr17 = getelementptr i8, ptr %arg.s, i64 24
-  %sunkaddr18 = getelementptr i8, ptr %arg.s, i64 272
-  br label %B88.endif
+B90.endif.preheader:
+  %sunkaddr126 = getelementptr i8, ptr %arg.s, i64 24
+  %sunkaddr127 = getelementptr i8, ptr %arg.s, i64 272
+  %sunkaddr124 = getelementptr i8, ptr %arg.s, i64 64
+  %sunkaddr125 = getelementptr i8, ptr %arg.s, i64 208
+  %sunkaddr134 = getelementptr i8, ptr %arg.s, i64 72
+  %sunkaddr138 = getelementptr i8, ptr %arg.s, i64 568
+  %sunkaddr139 = getelementptr i8, ptr %arg.s, i64 312
+  br label %B90.endif
 
-B320:
-  %.257 = load i64, ptr %arg.s, align 8
-  %.260 = load i64, ptr %sunkaddr18, align 8
-  %.261 = inttoptr i64 %.260 to ptr
-  %.264 = load i64, ptr %.16, align 8
-  %.265 = inttoptr i64 %.264 to ptr
-  %.270 = inttoptr i64 %.257 to ptr
-  tail call void %.270(ptr %.261, ptr %.265, ptr %.265)
-  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
-  br label %B426
+B322:
+  %.258 = load i64, ptr %arg.s, align 8
+  %.261 = load i64, ptr %sunkaddr127, align 8
+  %.262 = inttoptr i64 %.261 to ptr
+  %.265 = load i64, ptr %.16, align 8
+  %.266 = inttoptr i64 %.265 to ptr
+  %.271 = inttoptr i64 %.258 to ptr
+  tail call void %.271(ptr %.262, ptr %.266, ptr %.266)
+  br label %B1021.sink.split
 
-B426:
-  %exitcond = icmp eq i64 %.1364750, %arg.count
-  br i1 %exitcond, label %common.ret, label %B88.endif
+B442:
+  %.278 = load i64, ptr %sunkaddr124, align 8
+  %.279.not = icmp eq i64 %.278, 0
+  br i1 %.279.not, label %B1021, label %B466
+
+B466:
+  %.283 = load i64, ptr %sunkaddr125, align 8
+  %.284.not = icmp eq i64 %.283, 0
+  br i1 %.284.not, label %B1021, label %B490.endif.endif
 
 common.ret:
-  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %retptr, %B426 ], [ %excinfo, %B88.endif ]
-  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ 0, %B426 ], [ %.232, %B88.endif ]
+  %excinfo.sink = phi ptr [ %retptr, %B0.endif.endif ], [ %excinfo, %B490.endif.endif.endif.endif ], [ %excinfo, %B490.endif.endif ], [ %excinfo, %B90.endif ], [ %retptr, %B1021 ], [ %excinfo, %B490.endif.endif.endif.endif.endif.endif.endif ]
+  %common.ret.op = phi i32 [ 0, %B0.endif.endif ], [ %.420, %B490.endif.endif.endif.endif ], [ %.358, %B490.endif.endif ], [ %.233, %B90.endif ], [ 0, %B1021 ], [ %.525, %B490.endif.endif.endif.endif.endif.endif.endif ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B88.endif:
-  %.1364750 = phi i64 [ %.143, %B426 ], [ 1, %B88.endif.preheader ]
-  %.143 = add nuw i64 %.1364750, 1
-  %.172 = tail call ptr @aim(ptr nonnull %arg.s, i64 %.1364750, i64 %arg.count, ptr %arg.t0, ptr %.15.i)
-  %.175 = load i64, ptr %sunkaddr17, align 8
-  %.178 = load i64, ptr %sunkaddr18, align 8
-  %.179 = inttoptr i64 %.178 to ptr
-  %.182 = load i64, ptr %.16, align 8
-  %.183 = inttoptr i64 %.182 to ptr
-  %.188 = inttoptr i64 %.175 to ptr
-  tail call void %.188(ptr %.179, ptr %.183, ptr %.183)
-  %.194 = load i64, ptr %.16, align 8
-  %.195 = inttoptr i64 %.194 to ptr
-  %.8.i5 = load i64, ptr %.7.i, align 8, !noalias !325
-  %.9.i6 = inttoptr i64 %.8.i5 to ptr
-  %.10.i7 = getelementptr i8, ptr %.9.i6, i64 16
-  %.11.i8 = load i64, ptr %.10.i7, align 8, !noalias !325
-  %.13.i10 = load i64, ptr %.12.i, align 8, !noalias !325
-  %.14.i11 = mul nsw i64 %.13.i10, %.11.i8
-  %.15.i12 = getelementptr double, ptr %.195, i64 %.14.i11
-  %.232 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.228, ptr nonnull %excinfo.3, ptr %.15.i12, ptr %.195, i64 %.13.i10)
-  switch i32 %.232, label %common.ret [
-    i32 -2, label %B88.endif.endif
-    i32 0, label %B88.endif.endif
+B1021.sink.split:
+  %.8.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax(ptr nonnull %.4.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 14) #0
+  br label %B1021
+
+B1021:
+  %exitcond = icmp eq i64 %.137107118, %arg.count
+  br i1 %exitcond, label %common.ret, label %B90.endif
+
+B90.endif:
+  %.137107118 = phi i64 [ %.144, %B1021 ], [ 1, %B90.endif.preheader ]
+  %.144 = add nuw i64 %.137107118, 1
+  %.173 = tail call ptr @aim(ptr nonnull %arg.s, i64 %.137107118, i64 %arg.count, ptr %arg.t0, ptr %.15.i)
+  %.176 = load i64, ptr %sunkaddr126, align 8
+  %.179 = load i64, ptr %sunkaddr127, align 8
+  %.180 = inttoptr i64 %.179 to ptr
+  %.183 = load i64, ptr %.16, align 8
+  %.184 = inttoptr i64 %.183 to ptr
+  %.189 = inttoptr i64 %.176 to ptr
+  tail call void %.189(ptr %.180, ptr %.184, ptr %.184)
+  %.195 = load i64, ptr %.16, align 8
+  %.196 = inttoptr i64 %.195 to ptr
+  %.8.i49 = load i64, ptr %.7.i, align 8, !noalias !328
+  %.9.i50 = inttoptr i64 %.8.i49 to ptr
+  %.10.i51 = getelementptr i8, ptr %.9.i50, i64 16
+  %.11.i52 = load i64, ptr %.10.i51, align 8, !noalias !328
+  %.13.i54 = load i64, ptr %.12.i, align 8, !noalias !328
+  %.14.i55 = mul nsw i64 %.13.i54, %.11.i52
+  %.15.i56 = getelementptr double, ptr %.196, i64 %.14.i55
+  %.233 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.229, ptr nonnull %excinfo.3, ptr %.15.i56, ptr %.196, i64 %.13.i54)
+  switch i32 %.233, label %common.ret [
+    i32 -2, label %B90.endif.endif
+    i32 0, label %B90.endif.endif
   ], !prof !8
 
-B88.endif.endif:
-  %.253 = icmp slt i64 %.1364750, %arg.count
-  br i1 %.253, label %B320, label %B426
+B90.endif.endif:
+  %.254 = icmp slt i64 %.137107118, %arg.count
+  br i1 %.254, label %B322, label %B442
+
+B490.endif.endif:
+  %.290 = load i64, ptr %.16, align 8
+  %.291 = inttoptr i64 %.290 to ptr
+  %.8.i58 = load i64, ptr %.7.i, align 8, !noalias !331
+  %.9.i59 = inttoptr i64 %.8.i58 to ptr
+  %.10.i60 = getelementptr i8, ptr %.9.i59, i64 112
+  %.11.i61 = load i64, ptr %.10.i60, align 8, !noalias !331
+  %.13.i63 = load i64, ptr %.12.i, align 8, !noalias !331
+  %.14.i64 = mul nsw i64 %.13.i63, %.11.i61
+  %.15.i65 = getelementptr double, ptr %.291, i64 %.14.i64
+  %.10.i69 = getelementptr i8, ptr %.9.i59, i64 8
+  %.11.i70 = load i64, ptr %.10.i69, align 8, !noalias !334
+  %.14.i73 = mul nsw i64 %.11.i70, %.13.i63
+  %.15.i74 = getelementptr double, ptr %.291, i64 %.14.i73
+  %.349 = load i64, ptr %sunkaddr134, align 8
+  %.353 = mul nsw i64 %.349, %.13.i63
+  %.358 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.354, ptr nonnull %excinfo.6, ptr %.15.i65, ptr %.15.i74, i64 %.353)
+  switch i32 %.358, label %common.ret [
+    i32 -2, label %B490.endif.endif.endif.endif
+    i32 0, label %B490.endif.endif.endif.endif
+  ], !prof !8
+
+B490.endif.endif.endif.endif:
+  %.382 = load i64, ptr %.16, align 8
+  %.383 = inttoptr i64 %.382 to ptr
+  %.8.i76 = load i64, ptr %.7.i, align 8, !noalias !337
+  %.9.i77 = inttoptr i64 %.8.i76 to ptr
+  %.10.i78 = getelementptr i8, ptr %.9.i77, i64 24
+  %.11.i79 = load i64, ptr %.10.i78, align 8, !noalias !337
+  %.13.i81 = load i64, ptr %.12.i, align 8, !noalias !337
+  %.14.i82 = mul nsw i64 %.13.i81, %.11.i79
+  %.15.i83 = getelementptr double, ptr %.383, i64 %.14.i82
+  %.420 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.416, ptr nonnull %excinfo.8, ptr %.15.i83, ptr %.383, i64 %.13.i81)
+  switch i32 %.420, label %common.ret [
+    i32 -2, label %B490.endif.endif.endif.endif.endif.endif.endif
+    i32 0, label %B490.endif.endif.endif.endif.endif.endif.endif
+  ], !prof !8
+
+B490.endif.endif.endif.endif.endif.endif.endif:
+  %.442 = load i64, ptr %sunkaddr138, align 8
+  %.445 = load i64, ptr %sunkaddr139, align 8
+  %.449 = load i64, ptr %.16, align 8
+  %.450 = inttoptr i64 %.449 to ptr
+  %.8.i85 = load i64, ptr %.7.i, align 8, !noalias !340
+  %.9.i86 = inttoptr i64 %.8.i85 to ptr
+  %.10.i87 = getelementptr i8, ptr %.9.i86, i64 112
+  %.11.i88 = load i64, ptr %.10.i87, align 8, !noalias !340
+  %.13.i90 = load i64, ptr %.12.i, align 8, !noalias !340
+  %.14.i91 = mul nsw i64 %.13.i90, %.11.i88
+  %.15.i92 = getelementptr double, ptr %.450, i64 %.14.i91
+  %.446 = inttoptr i64 %.445 to ptr
+  %.481 = inttoptr i64 %.442 to ptr
+  tail call void %.481(ptr %.446, ptr %.450, ptr %.15.i92)
+  %.487 = load i64, ptr %.16, align 8
+  %.488 = inttoptr i64 %.487 to ptr
+  %.8.i94 = load i64, ptr %.7.i, align 8, !noalias !343
+  %.9.i95 = inttoptr i64 %.8.i94 to ptr
+  %.10.i96 = getelementptr i8, ptr %.9.i95, i64 16
+  %.11.i97 = load i64, ptr %.10.i96, align 8, !noalias !343
+  %.13.i99 = load i64, ptr %.12.i, align 8, !noalias !343
+  %.14.i100 = mul nsw i64 %.13.i99, %.11.i97
+  %.15.i101 = getelementptr double, ptr %.488, i64 %.14.i100
+  %.525 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.521, ptr nonnull %excinfo.11, ptr %.15.i101, ptr %.488, i64 %.13.i99)
+  switch i32 %.525, label %common.ret [
+    i32 -2, label %B1021.sink.split
+    i32 0, label %B1021.sink.split
+  ], !prof !8
 }
 
 
@@ -9585,7 +9704,7 @@ entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
   %excinfo = alloca ptr, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels6flightB4v111B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, ptr %.2, i64 %.3, i64 %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels6flightB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, ptr %.2, i64 %.3, i64 %.4) #0
   %cond = icmp eq i32 %.10, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9598,10 +9717,10 @@ common.ret:
   ret ptr %.20
 }
 
-define i32 @_ZN18biped_adrc_kernels10sample_allB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels10sample_allB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s) local_unnamed_addr {
 B0:
-  %.3.i2 = alloca ptr, align 8
-  %.3.i = alloca ptr, align 8
+  %.4.i3 = alloca ptr, align 8
+  %.4.i = alloca ptr, align 8
   %.32 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
   %.245 = alloca ptr, align 8
@@ -9646,16 +9765,16 @@ B264:
   %.99 = inttoptr i64 %.98 to ptr
   %.100 = inttoptr i64 %.87 to ptr
   tail call void %.100(ptr %.91, ptr %.95, ptr %.99)
-  %.7.i1 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
+  %.8.i2 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax(ptr nonnull %.4.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 1) #0
   %.105 = getelementptr i8, ptr %arg.s, i64 224
   %.107 = load double, ptr %.105, align 8
   %.108 = fcmp oeq double %.107, 0.000000e+00
   %.112 = load i64, ptr %.93, align 8
-  br i1 %.108, label %B392.endif, label %B492.endif.endif
+  br i1 %.108, label %B404.endif, label %B504.endif.endif
 
 common.ret:
-  %retptr.sink = phi ptr [ %retptr, %B492.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B26 ], [ %retptr, %B392.endif ], [ %retptr, %B26.endif ], [ %excinfo, %B492.endif.endif ]
-  %common.ret.op = phi i32 [ 0, %B492.endif.endif.endif.endif.endif.endif ], [ %.36, %B26 ], [ 0, %B392.endif ], [ 0, %B26.endif ], [ %.249, %B492.endif.endif ]
+  %retptr.sink = phi ptr [ %retptr, %B504.endif.endif.endif.endif.endif.endif ], [ %excinfo, %B26 ], [ %retptr, %B404.endif ], [ %retptr, %B26.endif ], [ %excinfo, %B504.endif.endif ]
+  %common.ret.op = phi i32 [ 0, %B504.endif.endif.endif.endif.endif.endif ], [ %.36, %B26 ], [ 0, %B404.endif ], [ 0, %B26.endif ], [ %.249, %B504.endif.endif ]
   store ptr null, ptr %retptr.sink, align 8
   ret i32 %common.ret.op
 
@@ -9673,10 +9792,10 @@ B26.endif:
   tail call void %.81(ptr %.70, ptr %.74, ptr %.74)
   br label %common.ret
 
-B392.endif:
+B404.endif:
   %.118 = load double, ptr %.8, align 8
   %.8.i = getelementptr i8, ptr %arg.s, i64 248
-  %.10.i = load double, ptr %.8.i, align 8, !noalias !328
+  %.10.i = load double, ptr %.8.i, align 8, !noalias !346
   %.14.i = fdiv double %.118, %.10.i
   %.15.i = fadd double %.14.i, -1.000000e-09
   %.23.le.i = tail call double @llvm.ceil.f64(double %.15.i)
@@ -9687,9 +9806,9 @@ B392.endif:
   %.145 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.113, i64 8, i64 %.5.i.i)
   br label %common.ret
 
-B492.endif.endif:
+B504.endif.endif:
   %.8.i1 = getelementptr i8, ptr %arg.s, i64 248
-  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !331
+  %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !349
   %.14.i3 = fdiv double %.107, %.10.i2
   %.15.i4 = fadd double %.14.i3, -1.000000e-09
   %.23.le.i5 = tail call double @llvm.ceil.f64(double %.15.i4)
@@ -9701,11 +9820,11 @@ B492.endif.endif:
   %.189 = load i64, ptr %.97, align 8
   %.190 = inttoptr i64 %.189 to ptr
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
-  %.8.i9 = load i64, ptr %.7.i, align 8, !noalias !334
+  %.8.i9 = load i64, ptr %.7.i, align 8, !noalias !352
   %.9.i = inttoptr i64 %.8.i9 to ptr
-  %.11.i = load i64, ptr %.9.i, align 8, !noalias !334
+  %.11.i = load i64, ptr %.9.i, align 8, !noalias !352
   %.12.i = getelementptr i8, ptr %arg.s, i64 560
-  %.13.i = load i64, ptr %.12.i, align 8, !noalias !334
+  %.13.i = load i64, ptr %.12.i, align 8, !noalias !352
   %.14.i10 = mul nsw i64 %.13.i, %.11.i
   %.15.i11 = getelementptr double, ptr %.190, i64 %.14.i10
   %.217 = getelementptr i8, ptr %arg.s, i64 80
@@ -9720,19 +9839,19 @@ B492.endif.endif:
   %.237 = getelementptr double, ptr %.227, i64 %.236
   %.249 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.245, ptr nonnull %excinfo.5, ptr %.237, ptr %.227, i64 %0)
   switch i32 %.249, label %common.ret [
-    i32 -2, label %B492.endif.endif.endif.endif.endif.endif
-    i32 0, label %B492.endif.endif.endif.endif.endif.endif
+    i32 -2, label %B504.endif.endif.endif.endif.endif.endif
+    i32 0, label %B504.endif.endif.endif.endif.endif.endif
   ], !prof !8
 
-B492.endif.endif.endif.endif.endif.endif:
+B504.endif.endif.endif.endif.endif.endif:
   %.271 = load i64, ptr %.93, align 8
   %.276 = load i64, ptr %.97, align 8
   %.277 = inttoptr i64 %.276 to ptr
-  %.8.i13 = load i64, ptr %.7.i, align 8, !noalias !337
+  %.8.i13 = load i64, ptr %.7.i, align 8, !noalias !355
   %.9.i14 = inttoptr i64 %.8.i13 to ptr
   %.10.i15 = getelementptr i8, ptr %.9.i14, i64 64
-  %.11.i16 = load i64, ptr %.10.i15, align 8, !noalias !337
-  %.13.i18 = load i64, ptr %.12.i, align 8, !noalias !337
+  %.11.i16 = load i64, ptr %.10.i15, align 8, !noalias !355
+  %.13.i18 = load i64, ptr %.12.i, align 8, !noalias !355
   %.14.i19 = mul nsw i64 %.13.i18, %.11.i16
   %.15.i20 = getelementptr double, ptr %.277, i64 %.14.i19
   %.272 = inttoptr i64 %.271 to ptr
@@ -9744,20 +9863,20 @@ B492.endif.endif.endif.endif.endif.endif:
   %.315 = inttoptr i64 %.314 to ptr
   %.320 = inttoptr i64 %.307 to ptr
   tail call void %.320(ptr %.311, ptr %.315, ptr %.315)
-  %.7.i3 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v105B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i2, ptr nonnull poison, ptr nonnull readonly %arg.s) #0
+  %.8.i4 = call i32 @_ZN18biped_adrc_kernels11store_nodesB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax(ptr nonnull %.4.i3, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 14) #0
   %.327 = load i64, ptr %.97, align 8
   %.328 = inttoptr i64 %.327 to ptr
-  %.8.i22 = load i64, ptr %.7.i, align 8, !noalias !340
+  %.8.i22 = load i64, ptr %.7.i, align 8, !noalias !358
   %.9.i23 = inttoptr i64 %.8.i22 to ptr
   %.10.i24 = getelementptr i8, ptr %.9.i23, i64 56
-  %.11.i25 = load i64, ptr %.10.i24, align 8, !noalias !340
-  %.13.i27 = load i64, ptr %.12.i, align 8, !noalias !340
+  %.11.i25 = load i64, ptr %.10.i24, align 8, !noalias !358
+  %.13.i27 = load i64, ptr %.12.i, align 8, !noalias !358
   %.14.i28 = mul nsw i64 %.13.i27, %.11.i25
   %.15.i29 = getelementptr double, ptr %.328, i64 %.14.i28
   %.358 = load double, ptr %.105, align 8
   %.362 = load double, ptr %.8, align 8
   %.7.i30 = fsub double %.362, %.358
-  %.10.i32 = load double, ptr %.8.i1, align 8, !noalias !343
+  %.10.i32 = load double, ptr %.8.i1, align 8, !noalias !361
   %.14.i33 = fdiv double %.7.i30, %.10.i32
   %.15.i34 = fadd double %.14.i33, -1.000000e-09
   %.23.le.i35 = tail call double @llvm.ceil.f64(double %.15.i34)
@@ -9774,7 +9893,7 @@ entry:
   %.3 = alloca ptr, align 8
   store ptr null, ptr %.3, align 8
   %excinfo = alloca ptr, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels10sample_allB4v113B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
+  %.7 = call i32 @_ZN18biped_adrc_kernels10sample_allB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull %excinfo, ptr %.1) #0
   %cond = icmp eq i32 %.7, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9788,7 +9907,7 @@ common.ret:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels12side_by_sideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.s, ptr readonly %arg.walks, i64 %arg.count, ptr writeonly %arg.codes) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels12side_by_sideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.s, ptr readonly %arg.walks, i64 %arg.count, ptr writeonly %arg.codes) local_unnamed_addr #0 {
 B0.endif:
   %.6.i12 = alloca ptr, align 8
   %.3.i9 = alloca i64, align 8
@@ -9838,7 +9957,7 @@ B58.epil:
   store i64 0, ptr %scevgep, align 8
   %lsr.iv.next = add nsw i64 %lsr.iv, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter.cmp.not, label %B106.endif.preheader, label %B58.epil, !llvm.loop !346
+  br i1 %epil.iter.cmp.not, label %B106.endif.preheader, label %B58.epil, !llvm.loop !364
 
 B106.endif.preheader:
   %sunkaddr111 = getelementptr i8, ptr %arg.s, i64 616
@@ -9946,7 +10065,7 @@ B150:
   br i1 %.366, label %B246.endif, label %B720
 
 B512:
-  %.10.i1 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v97B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306351354, ptr nonnull %3, ptr %4) #0
+  %.10.i1 = call i32 @_ZN18biped_adrc_kernels12begin_sampleB3v98B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.306351354, ptr nonnull %3, ptr %4) #0
   br label %B1223
 
 B560:
@@ -10035,7 +10154,7 @@ B1120:
 B1132:
   %.761 = load i64, ptr %sunkaddr119, align 8
   %.762 = inttoptr i64 %.761 to ptr
-  %.10.i13 = call i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i12, ptr nonnull poison, ptr readonly %arg.s, i64 %.306351354, ptr %r.3.5272, ptr %.762) #0
+  %.10.i13 = call i32 @_ZN18biped_adrc_kernels5enterB4v102B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i12, ptr nonnull poison, ptr readonly %arg.s, i64 %.306351354, ptr %r.3.5272, ptr %.762) #0
   %.822 = icmp sgt i64 %i.4.5276, -1
   br i1 %.822, label %B1146, label %B1164
 
@@ -10097,11 +10216,11 @@ B246.endif:
   %.375 = load i64, ptr %.374, align 8
   %.383 = load i64, ptr %sunkaddr119, align 8
   %.384 = inttoptr i64 %.383 to ptr
-  %.8.i = load i64, ptr %sunkaddr120, align 8, !noalias !347
+  %.8.i = load i64, ptr %sunkaddr120, align 8, !noalias !365
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 80
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !347
-  %.13.i = load i64, ptr %.44, align 8, !noalias !347
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !365
+  %.13.i = load i64, ptr %.44, align 8, !noalias !365
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.384, i64 %.14.i
   %.411 = getelementptr double, ptr %.15.i, i64 %.306351354
@@ -10135,13 +10254,13 @@ define i64 @side_by_side(ptr %.1, ptr readonly %.2, i64 %.3, ptr writeonly %.4) 
 entry:
   %.6 = alloca i64, align 8
   store i64 0, ptr %.6, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels12side_by_sideB4v114B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels12side_by_sideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
   %.20 = load i64, ptr %.6, align 8
   ret i64 %.20
 }
 
 
-define i32 @_ZN18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, ptr readonly %arg.walks, i64 %arg.first, ptr %arg.impacts) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels11move_besideB4v116B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, ptr readonly %arg.walks, i64 %arg.first, ptr %arg.impacts) local_unnamed_addr #0 {
 B0.endif:
   %.6.i8 = alloca ptr, align 8
   %.6.i = alloca ptr, align 8
@@ -10224,11 +10343,11 @@ B36.epil.i:
   %.111.epil.i = add nuw nsw i64 %.1044042.epil.i, 1
   %3 = shl i64 %.1044042.epil.i, 3
   %scevgep.i = getelementptr i8, ptr %.258, i64 %3
-  %.138.epil.i = load double, ptr %scevgep.i, align 8, !noalias !350
-  %.141.epil.i = load i64, ptr %.35, align 8, !noalias !350
+  %.138.epil.i = load double, ptr %scevgep.i, align 8, !noalias !368
+  %.141.epil.i = load i64, ptr %.35, align 8, !noalias !368
   %.142.epil.i = mul nsw i64 %.141.epil.i, %.1044042.epil.i
   %gep.epil.i = getelementptr double, ptr %invariant.gep.i, i64 %.142.epil.i
-  store double %.138.epil.i, ptr %gep.epil.i, align 8, !noalias !350
+  store double %.138.epil.i, ptr %gep.epil.i, align 8, !noalias !368
   %lsr.iv.next.i = add nsw i64 %lsr.iv.i, -1
   %epil.iter.cmp.not.i = icmp eq i64 %lsr.iv.next.i, 0
   br i1 %epil.iter.cmp.not.i, label %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit, label %B36.epil.i, !llvm.loop !257
@@ -10273,20 +10392,20 @@ B800.endif.endif.epil.preheader:
 B800.endif.endif.epil:
   %lsr.iv124 = phi i64 [ %lsr.iv.next125, %B800.endif.endif.epil ], [ %xtraiter, %B800.endif.endif.epil.preheader ]
   %lsr.iv120 = phi ptr [ %scevgep121, %B800.endif.endif.epil ], [ %scevgep119, %B800.endif.endif.epil.preheader ]
-  %.8.i14.epil = load i64, ptr %.7.i, align 8, !noalias !353
+  %.8.i14.epil = load i64, ptr %.7.i, align 8, !noalias !371
   %.9.i15.epil = inttoptr i64 %.8.i14.epil to ptr
   %.10.i16.epil = getelementptr i8, ptr %.9.i15.epil, i64 8
-  %.11.i17.epil = load i64, ptr %.10.i16.epil, align 8, !noalias !353
-  %.13.i19.epil = load i64, ptr %.35, align 8, !noalias !353
+  %.11.i17.epil = load i64, ptr %.10.i16.epil, align 8, !noalias !371
+  %.13.i19.epil = load i64, ptr %.35, align 8, !noalias !371
   %7 = shl i64 %.11.i17.epil, 3
   %8 = mul i64 %7, %.13.i19.epil
   %scevgep123 = getelementptr i8, ptr %lsr.iv120, i64 %8
   store double 0.000000e+00, ptr %scevgep123, align 8
-  %.8.i59.epil = load i64, ptr %.7.i, align 8, !noalias !356
+  %.8.i59.epil = load i64, ptr %.7.i, align 8, !noalias !374
   %.9.i60.epil = inttoptr i64 %.8.i59.epil to ptr
   %.10.i61.epil = getelementptr i8, ptr %.9.i60.epil, i64 112
-  %.11.i62.epil = load i64, ptr %.10.i61.epil, align 8, !noalias !356
-  %.13.i64.epil = load i64, ptr %.35, align 8, !noalias !356
+  %.11.i62.epil = load i64, ptr %.10.i61.epil, align 8, !noalias !374
+  %.13.i64.epil = load i64, ptr %.35, align 8, !noalias !374
   %9 = shl i64 %.11.i62.epil, 3
   %10 = mul i64 %9, %.13.i64.epil
   %scevgep122 = getelementptr i8, ptr %lsr.iv120, i64 %10
@@ -10294,7 +10413,7 @@ B800.endif.endif.epil:
   %scevgep121 = getelementptr i8, ptr %lsr.iv120, i64 8
   %lsr.iv.next125 = add nsw i64 %lsr.iv124, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next125, 0
-  br i1 %epil.iter.cmp.not, label %B622.1, label %B800.endif.endif.epil, !llvm.loop !359
+  br i1 %epil.iter.cmp.not, label %B622.1, label %B800.endif.endif.epil, !llvm.loop !377
 
 B622.1:
   br i1 %5, label %B636.1, label %B652.endif.endif.1
@@ -10307,11 +10426,11 @@ B636.1:
 B652.endif.endif.1:
   %"$phi652.1.2.1.1" = phi i64 [ %.466.1, %B636.1 ], [ 0, %B622.1 ]
   %11 = inttoptr i64 %.372 to ptr
-  %.8.i23 = load i64, ptr %.7.i, align 8, !noalias !360
+  %.8.i23 = load i64, ptr %.7.i, align 8, !noalias !378
   %.9.i24 = inttoptr i64 %.8.i23 to ptr
   %.10.i25 = getelementptr i8, ptr %.9.i24, i64 120
-  %.11.i26 = load i64, ptr %.10.i25, align 8, !noalias !360
-  %.13.i28 = load i64, ptr %.35, align 8, !noalias !360
+  %.11.i26 = load i64, ptr %.10.i25, align 8, !noalias !378
+  %.13.i28 = load i64, ptr %.35, align 8, !noalias !378
   %.14.i29 = mul nsw i64 %.13.i28, %.11.i26
   %.15.i30 = getelementptr double, ptr %11, i64 %.14.i29
   store i64 %"$phi652.1.2.1.1", ptr %.15.i30, align 8
@@ -10333,65 +10452,65 @@ B800.endif.endif.1.preheader.new:
 
 B800.endif.endif.1:
   %.600228231.1 = phi i64 [ 0, %B800.endif.endif.1.preheader.new ], [ %.607.1.3, %B800.endif.endif.1 ]
-  %.8.i32 = load i64, ptr %.7.i, align 8, !noalias !363
+  %.8.i32 = load i64, ptr %.7.i, align 8, !noalias !381
   %.9.i33 = inttoptr i64 %.8.i32 to ptr
   %.10.i34 = getelementptr i8, ptr %.9.i33, i64 8
-  %.11.i35 = load i64, ptr %.10.i34, align 8, !noalias !363
-  %.13.i37 = load i64, ptr %.35, align 8, !noalias !363
+  %.11.i35 = load i64, ptr %.10.i34, align 8, !noalias !381
+  %.13.i37 = load i64, ptr %.35, align 8, !noalias !381
   %13 = shl i64 %.11.i35, 3
   %14 = mul i64 %13, %.13.i37
   %scevgep117 = getelementptr i8, ptr %11, i64 %14
   %15 = shl i64 %.600228231.1, 3
   %scevgep118 = getelementptr i8, ptr %scevgep117, i64 %15
   store double 0.000000e+00, ptr %scevgep118, align 8
-  %.8.i41 = load i64, ptr %.7.i, align 8, !noalias !366
+  %.8.i41 = load i64, ptr %.7.i, align 8, !noalias !384
   %.9.i42 = inttoptr i64 %.8.i41 to ptr
   %.10.i43 = getelementptr i8, ptr %.9.i42, i64 112
-  %.11.i44 = load i64, ptr %.10.i43, align 8, !noalias !366
-  %.13.i46 = load i64, ptr %.35, align 8, !noalias !366
+  %.11.i44 = load i64, ptr %.10.i43, align 8, !noalias !384
+  %.13.i46 = load i64, ptr %.35, align 8, !noalias !384
   %16 = shl i64 %.11.i44, 3
   %17 = mul i64 %16, %.13.i46
   %scevgep115 = getelementptr i8, ptr %11, i64 %17
   %scevgep116 = getelementptr i8, ptr %scevgep115, i64 %15
   store double 0.000000e+00, ptr %scevgep116, align 8
-  %.8.i32.1 = load i64, ptr %.7.i, align 8, !noalias !363
+  %.8.i32.1 = load i64, ptr %.7.i, align 8, !noalias !381
   %.9.i33.1 = inttoptr i64 %.8.i32.1 to ptr
   %.10.i34.1 = getelementptr i8, ptr %.9.i33.1, i64 8
-  %.11.i35.1 = load i64, ptr %.10.i34.1, align 8, !noalias !363
-  %.13.i37.1 = load i64, ptr %.35, align 8, !noalias !363
+  %.11.i35.1 = load i64, ptr %.10.i34.1, align 8, !noalias !381
+  %.13.i37.1 = load i64, ptr %.35, align 8, !noalias !381
   %18 = shl i64 %.11.i35.1, 3
   %19 = mul i64 %18, %.13.i37.1
   %scevgep109 = getelementptr i8, ptr %11, i64 %19
   %scevgep110 = getelementptr i8, ptr %scevgep109, i64 %15
   %scevgep111 = getelementptr i8, ptr %scevgep110, i64 8
   store double 0.000000e+00, ptr %scevgep111, align 8
-  %.8.i41.1 = load i64, ptr %.7.i, align 8, !noalias !366
+  %.8.i41.1 = load i64, ptr %.7.i, align 8, !noalias !384
   %.9.i42.1 = inttoptr i64 %.8.i41.1 to ptr
   %.10.i43.1 = getelementptr i8, ptr %.9.i42.1, i64 112
-  %.11.i44.1 = load i64, ptr %.10.i43.1, align 8, !noalias !366
-  %.13.i46.1 = load i64, ptr %.35, align 8, !noalias !366
+  %.11.i44.1 = load i64, ptr %.10.i43.1, align 8, !noalias !384
+  %.13.i46.1 = load i64, ptr %.35, align 8, !noalias !384
   %20 = shl i64 %.11.i44.1, 3
   %21 = mul i64 %20, %.13.i46.1
   %scevgep112 = getelementptr i8, ptr %11, i64 %21
   %scevgep113 = getelementptr i8, ptr %scevgep112, i64 %15
   %scevgep114 = getelementptr i8, ptr %scevgep113, i64 8
   store double 0.000000e+00, ptr %scevgep114, align 8
-  %.8.i32.2 = load i64, ptr %.7.i, align 8, !noalias !363
+  %.8.i32.2 = load i64, ptr %.7.i, align 8, !noalias !381
   %.9.i33.2 = inttoptr i64 %.8.i32.2 to ptr
   %.10.i34.2 = getelementptr i8, ptr %.9.i33.2, i64 8
-  %.11.i35.2 = load i64, ptr %.10.i34.2, align 8, !noalias !363
-  %.13.i37.2 = load i64, ptr %.35, align 8, !noalias !363
+  %.11.i35.2 = load i64, ptr %.10.i34.2, align 8, !noalias !381
+  %.13.i37.2 = load i64, ptr %.35, align 8, !noalias !381
   %22 = shl i64 %.11.i35.2, 3
   %23 = mul i64 %22, %.13.i37.2
   %scevgep103 = getelementptr i8, ptr %11, i64 %23
   %scevgep104 = getelementptr i8, ptr %scevgep103, i64 %15
   %scevgep105 = getelementptr i8, ptr %scevgep104, i64 16
   store double 0.000000e+00, ptr %scevgep105, align 8
-  %.8.i41.2 = load i64, ptr %.7.i, align 8, !noalias !366
+  %.8.i41.2 = load i64, ptr %.7.i, align 8, !noalias !384
   %.9.i42.2 = inttoptr i64 %.8.i41.2 to ptr
   %.10.i43.2 = getelementptr i8, ptr %.9.i42.2, i64 112
-  %.11.i44.2 = load i64, ptr %.10.i43.2, align 8, !noalias !366
-  %.13.i46.2 = load i64, ptr %.35, align 8, !noalias !366
+  %.11.i44.2 = load i64, ptr %.10.i43.2, align 8, !noalias !384
+  %.13.i46.2 = load i64, ptr %.35, align 8, !noalias !384
   %24 = shl i64 %.11.i44.2, 3
   %25 = mul i64 %24, %.13.i46.2
   %scevgep106 = getelementptr i8, ptr %11, i64 %25
@@ -10399,22 +10518,22 @@ B800.endif.endif.1:
   %scevgep108 = getelementptr i8, ptr %scevgep107, i64 16
   store double 0.000000e+00, ptr %scevgep108, align 8
   %.607.1.3 = add nuw i64 %.600228231.1, 4
-  %.8.i32.3 = load i64, ptr %.7.i, align 8, !noalias !363
+  %.8.i32.3 = load i64, ptr %.7.i, align 8, !noalias !381
   %.9.i33.3 = inttoptr i64 %.8.i32.3 to ptr
   %.10.i34.3 = getelementptr i8, ptr %.9.i33.3, i64 8
-  %.11.i35.3 = load i64, ptr %.10.i34.3, align 8, !noalias !363
-  %.13.i37.3 = load i64, ptr %.35, align 8, !noalias !363
+  %.11.i35.3 = load i64, ptr %.10.i34.3, align 8, !noalias !381
+  %.13.i37.3 = load i64, ptr %.35, align 8, !noalias !381
   %26 = shl i64 %.11.i35.3, 3
   %27 = mul i64 %26, %.13.i37.3
   %scevgep97 = getelementptr i8, ptr %11, i64 %27
   %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %15
   %scevgep99 = getelementptr i8, ptr %scevgep98, i64 24
   store double 0.000000e+00, ptr %scevgep99, align 8
-  %.8.i41.3 = load i64, ptr %.7.i, align 8, !noalias !366
+  %.8.i41.3 = load i64, ptr %.7.i, align 8, !noalias !384
   %.9.i42.3 = inttoptr i64 %.8.i41.3 to ptr
   %.10.i43.3 = getelementptr i8, ptr %.9.i42.3, i64 112
-  %.11.i44.3 = load i64, ptr %.10.i43.3, align 8, !noalias !366
-  %.13.i46.3 = load i64, ptr %.35, align 8, !noalias !366
+  %.11.i44.3 = load i64, ptr %.10.i43.3, align 8, !noalias !384
+  %.13.i46.3 = load i64, ptr %.35, align 8, !noalias !384
   %28 = shl i64 %.11.i44.3, 3
   %29 = mul i64 %28, %.13.i46.3
   %scevgep100 = getelementptr i8, ptr %11, i64 %29
@@ -10437,20 +10556,20 @@ B800.endif.endif.1.epil.preheader:
 B800.endif.endif.1.epil:
   %lsr.iv96 = phi i64 [ %lsr.iv.next, %B800.endif.endif.1.epil ], [ %xtraiter82, %B800.endif.endif.1.epil.preheader ]
   %lsr.iv = phi ptr [ %scevgep93, %B800.endif.endif.1.epil ], [ %scevgep92, %B800.endif.endif.1.epil.preheader ]
-  %.8.i32.epil = load i64, ptr %.7.i, align 8, !noalias !363
+  %.8.i32.epil = load i64, ptr %.7.i, align 8, !noalias !381
   %.9.i33.epil = inttoptr i64 %.8.i32.epil to ptr
   %.10.i34.epil = getelementptr i8, ptr %.9.i33.epil, i64 8
-  %.11.i35.epil = load i64, ptr %.10.i34.epil, align 8, !noalias !363
-  %.13.i37.epil = load i64, ptr %.35, align 8, !noalias !363
+  %.11.i35.epil = load i64, ptr %.10.i34.epil, align 8, !noalias !381
+  %.13.i37.epil = load i64, ptr %.35, align 8, !noalias !381
   %31 = shl i64 %.11.i35.epil, 3
   %32 = mul i64 %31, %.13.i37.epil
   %scevgep95 = getelementptr i8, ptr %lsr.iv, i64 %32
   store double 0.000000e+00, ptr %scevgep95, align 8
-  %.8.i41.epil = load i64, ptr %.7.i, align 8, !noalias !366
+  %.8.i41.epil = load i64, ptr %.7.i, align 8, !noalias !384
   %.9.i42.epil = inttoptr i64 %.8.i41.epil to ptr
   %.10.i43.epil = getelementptr i8, ptr %.9.i42.epil, i64 112
-  %.11.i44.epil = load i64, ptr %.10.i43.epil, align 8, !noalias !366
-  %.13.i46.epil = load i64, ptr %.35, align 8, !noalias !366
+  %.11.i44.epil = load i64, ptr %.10.i43.epil, align 8, !noalias !384
+  %.13.i46.epil = load i64, ptr %.35, align 8, !noalias !384
   %33 = shl i64 %.11.i44.epil, 3
   %34 = mul i64 %33, %.13.i46.epil
   %scevgep94 = getelementptr i8, ptr %lsr.iv, i64 %34
@@ -10458,7 +10577,7 @@ B800.endif.endif.1.epil:
   %scevgep93 = getelementptr i8, ptr %lsr.iv, i64 8
   %lsr.iv.next = add nsw i64 %lsr.iv96, -1
   %epil.iter83.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter83.cmp.not, label %B904.1, label %B800.endif.endif.1.epil, !llvm.loop !369
+  br i1 %epil.iter83.cmp.not, label %B904.1, label %B800.endif.endif.1.epil, !llvm.loop !387
 
 B904.1:
   %.707 = tail call ptr @sample_all(ptr nonnull %arg.s)
@@ -10500,7 +10619,7 @@ common.ret:
 B442.endif:
   %.272 = load i64, ptr %sunkaddr176, align 8
   %.273 = inttoptr i64 %.272 to ptr
-  %.10.i9 = call i32 @_ZN18biped_adrc_kernels5enterB4v101B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr nonnull %2, ptr %.273) #0
+  %.10.i9 = call i32 @_ZN18biped_adrc_kernels5enterB4v102B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr nonnull %2, ptr %.273) #0
   %.281 = load i64, ptr %scevgep153, align 8
   %.289 = getelementptr i8, ptr %2, i64 200
   %.290 = load i64, ptr %.289, align 8
@@ -10516,11 +10635,11 @@ B652.endif.endif:
   %"$phi652.1.2.1" = phi i64 [ %.466, %B636 ], [ 0, %B622 ]
   %36 = inttoptr i64 %.368 to ptr
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
-  %.8.i = load i64, ptr %.7.i, align 8, !noalias !370
+  %.8.i = load i64, ptr %.7.i, align 8, !noalias !388
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 120
-  %.11.i = load i64, ptr %.10.i, align 8, !noalias !370
-  %.13.i12 = load i64, ptr %.35, align 8, !noalias !370
+  %.11.i = load i64, ptr %.10.i, align 8, !noalias !388
+  %.13.i12 = load i64, ptr %.35, align 8, !noalias !388
   %.14.i = mul nsw i64 %.13.i12, %.11.i
   %.15.i = getelementptr double, ptr %36, i64 %.14.i
   store i64 %"$phi652.1.2.1", ptr %.15.i, align 8
@@ -10543,65 +10662,65 @@ B800.endif.endif.preheader.new:
 
 B800.endif.endif:
   %.600228231 = phi i64 [ 0, %B800.endif.endif.preheader.new ], [ %.607.3, %B800.endif.endif ]
-  %.8.i14 = load i64, ptr %.7.i, align 8, !noalias !353
+  %.8.i14 = load i64, ptr %.7.i, align 8, !noalias !371
   %.9.i15 = inttoptr i64 %.8.i14 to ptr
   %.10.i16 = getelementptr i8, ptr %.9.i15, i64 8
-  %.11.i17 = load i64, ptr %.10.i16, align 8, !noalias !353
-  %.13.i19 = load i64, ptr %.35, align 8, !noalias !353
+  %.11.i17 = load i64, ptr %.10.i16, align 8, !noalias !371
+  %.13.i19 = load i64, ptr %.35, align 8, !noalias !371
   %38 = shl i64 %.11.i17, 3
   %39 = mul i64 %38, %.13.i19
   %scevgep146 = getelementptr i8, ptr %36, i64 %39
   %40 = shl i64 %.600228231, 3
   %scevgep147 = getelementptr i8, ptr %scevgep146, i64 %40
   store double 0.000000e+00, ptr %scevgep147, align 8
-  %.8.i59 = load i64, ptr %.7.i, align 8, !noalias !356
+  %.8.i59 = load i64, ptr %.7.i, align 8, !noalias !374
   %.9.i60 = inttoptr i64 %.8.i59 to ptr
   %.10.i61 = getelementptr i8, ptr %.9.i60, i64 112
-  %.11.i62 = load i64, ptr %.10.i61, align 8, !noalias !356
-  %.13.i64 = load i64, ptr %.35, align 8, !noalias !356
+  %.11.i62 = load i64, ptr %.10.i61, align 8, !noalias !374
+  %.13.i64 = load i64, ptr %.35, align 8, !noalias !374
   %41 = shl i64 %.11.i62, 3
   %42 = mul i64 %41, %.13.i64
   %scevgep144 = getelementptr i8, ptr %36, i64 %42
   %scevgep145 = getelementptr i8, ptr %scevgep144, i64 %40
   store double 0.000000e+00, ptr %scevgep145, align 8
-  %.8.i14.1 = load i64, ptr %.7.i, align 8, !noalias !353
+  %.8.i14.1 = load i64, ptr %.7.i, align 8, !noalias !371
   %.9.i15.1 = inttoptr i64 %.8.i14.1 to ptr
   %.10.i16.1 = getelementptr i8, ptr %.9.i15.1, i64 8
-  %.11.i17.1 = load i64, ptr %.10.i16.1, align 8, !noalias !353
-  %.13.i19.1 = load i64, ptr %.35, align 8, !noalias !353
+  %.11.i17.1 = load i64, ptr %.10.i16.1, align 8, !noalias !371
+  %.13.i19.1 = load i64, ptr %.35, align 8, !noalias !371
   %43 = shl i64 %.11.i17.1, 3
   %44 = mul i64 %43, %.13.i19.1
   %scevgep138 = getelementptr i8, ptr %36, i64 %44
   %scevgep139 = getelementptr i8, ptr %scevgep138, i64 %40
   %scevgep140 = getelementptr i8, ptr %scevgep139, i64 8
   store double 0.000000e+00, ptr %scevgep140, align 8
-  %.8.i59.1 = load i64, ptr %.7.i, align 8, !noalias !356
+  %.8.i59.1 = load i64, ptr %.7.i, align 8, !noalias !374
   %.9.i60.1 = inttoptr i64 %.8.i59.1 to ptr
   %.10.i61.1 = getelementptr i8, ptr %.9.i60.1, i64 112
-  %.11.i62.1 = load i64, ptr %.10.i61.1, align 8, !noalias !356
-  %.13.i64.1 = load i64, ptr %.35, align 8, !noalias !356
+  %.11.i62.1 = load i64, ptr %.10.i61.1, align 8, !noalias !374
+  %.13.i64.1 = load i64, ptr %.35, align 8, !noalias !374
   %45 = shl i64 %.11.i62.1, 3
   %46 = mul i64 %45, %.13.i64.1
   %scevgep141 = getelementptr i8, ptr %36, i64 %46
   %scevgep142 = getelementptr i8, ptr %scevgep141, i64 %40
   %scevgep143 = getelementptr i8, ptr %scevgep142, i64 8
   store double 0.000000e+00, ptr %scevgep143, align 8
-  %.8.i14.2 = load i64, ptr %.7.i, align 8, !noalias !353
+  %.8.i14.2 = load i64, ptr %.7.i, align 8, !noalias !371
   %.9.i15.2 = inttoptr i64 %.8.i14.2 to ptr
   %.10.i16.2 = getelementptr i8, ptr %.9.i15.2, i64 8
-  %.11.i17.2 = load i64, ptr %.10.i16.2, align 8, !noalias !353
-  %.13.i19.2 = load i64, ptr %.35, align 8, !noalias !353
+  %.11.i17.2 = load i64, ptr %.10.i16.2, align 8, !noalias !371
+  %.13.i19.2 = load i64, ptr %.35, align 8, !noalias !371
   %47 = shl i64 %.11.i17.2, 3
   %48 = mul i64 %47, %.13.i19.2
   %scevgep132 = getelementptr i8, ptr %36, i64 %48
   %scevgep133 = getelementptr i8, ptr %scevgep132, i64 %40
   %scevgep134 = getelementptr i8, ptr %scevgep133, i64 16
   store double 0.000000e+00, ptr %scevgep134, align 8
-  %.8.i59.2 = load i64, ptr %.7.i, align 8, !noalias !356
+  %.8.i59.2 = load i64, ptr %.7.i, align 8, !noalias !374
   %.9.i60.2 = inttoptr i64 %.8.i59.2 to ptr
   %.10.i61.2 = getelementptr i8, ptr %.9.i60.2, i64 112
-  %.11.i62.2 = load i64, ptr %.10.i61.2, align 8, !noalias !356
-  %.13.i64.2 = load i64, ptr %.35, align 8, !noalias !356
+  %.11.i62.2 = load i64, ptr %.10.i61.2, align 8, !noalias !374
+  %.13.i64.2 = load i64, ptr %.35, align 8, !noalias !374
   %49 = shl i64 %.11.i62.2, 3
   %50 = mul i64 %49, %.13.i64.2
   %scevgep135 = getelementptr i8, ptr %36, i64 %50
@@ -10609,22 +10728,22 @@ B800.endif.endif:
   %scevgep137 = getelementptr i8, ptr %scevgep136, i64 16
   store double 0.000000e+00, ptr %scevgep137, align 8
   %.607.3 = add nuw i64 %.600228231, 4
-  %.8.i14.3 = load i64, ptr %.7.i, align 8, !noalias !353
+  %.8.i14.3 = load i64, ptr %.7.i, align 8, !noalias !371
   %.9.i15.3 = inttoptr i64 %.8.i14.3 to ptr
   %.10.i16.3 = getelementptr i8, ptr %.9.i15.3, i64 8
-  %.11.i17.3 = load i64, ptr %.10.i16.3, align 8, !noalias !353
-  %.13.i19.3 = load i64, ptr %.35, align 8, !noalias !353
+  %.11.i17.3 = load i64, ptr %.10.i16.3, align 8, !noalias !371
+  %.13.i19.3 = load i64, ptr %.35, align 8, !noalias !371
   %51 = shl i64 %.11.i17.3, 3
   %52 = mul i64 %51, %.13.i19.3
   %scevgep126 = getelementptr i8, ptr %36, i64 %52
   %scevgep127 = getelementptr i8, ptr %scevgep126, i64 %40
   %scevgep128 = getelementptr i8, ptr %scevgep127, i64 24
   store double 0.000000e+00, ptr %scevgep128, align 8
-  %.8.i59.3 = load i64, ptr %.7.i, align 8, !noalias !356
+  %.8.i59.3 = load i64, ptr %.7.i, align 8, !noalias !374
   %.9.i60.3 = inttoptr i64 %.8.i59.3 to ptr
   %.10.i61.3 = getelementptr i8, ptr %.9.i60.3, i64 112
-  %.11.i62.3 = load i64, ptr %.10.i61.3, align 8, !noalias !356
-  %.13.i64.3 = load i64, ptr %.35, align 8, !noalias !356
+  %.11.i62.3 = load i64, ptr %.10.i61.3, align 8, !noalias !374
+  %.13.i64.3 = load i64, ptr %.35, align 8, !noalias !374
   %53 = shl i64 %.11.i62.3, 3
   %54 = mul i64 %53, %.13.i64.3
   %scevgep129 = getelementptr i8, ptr %36, i64 %54
@@ -10642,11 +10761,11 @@ B1166.endif:
   %.847 = inttoptr i64 %.837 to ptr
   %.854 = load i64, ptr %.371, align 8
   %.855 = inttoptr i64 %.854 to ptr
-  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !373
+  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !391
   %.9.i51 = inttoptr i64 %.8.i50 to ptr
   %.10.i52 = getelementptr i8, ptr %.9.i51, i64 80
-  %.11.i53 = load i64, ptr %.10.i52, align 8, !noalias !373
-  %.13.i55 = load i64, ptr %.35, align 8, !noalias !373
+  %.11.i53 = load i64, ptr %.10.i52, align 8, !noalias !391
+  %.13.i55 = load i64, ptr %.35, align 8, !noalias !391
   %.14.i56 = mul nsw i64 %.13.i55, %.11.i53
   %.15.i57 = getelementptr double, ptr %.855, i64 %.14.i56
   %scevgep90 = getelementptr i8, ptr %.15.i57, i64 %35
@@ -10659,11 +10778,11 @@ B1166.endif:
   store i64 %"$phi1166.1.2.2", ptr %.901, align 8
   %.908 = load i64, ptr %.371, align 8
   %.909 = inttoptr i64 %.908 to ptr
-  %.8.i68 = load i64, ptr %.7.i, align 8, !noalias !376
+  %.8.i68 = load i64, ptr %.7.i, align 8, !noalias !394
   %.9.i69 = inttoptr i64 %.8.i68 to ptr
   %.10.i70 = getelementptr i8, ptr %.9.i69, i64 80
-  %.11.i71 = load i64, ptr %.10.i70, align 8, !noalias !376
-  %.13.i73 = load i64, ptr %.35, align 8, !noalias !376
+  %.11.i71 = load i64, ptr %.10.i70, align 8, !noalias !394
+  %.13.i73 = load i64, ptr %.35, align 8, !noalias !394
   %.14.i74 = mul nsw i64 %.13.i73, %.11.i71
   %.15.i75 = getelementptr double, ptr %.909, i64 %.14.i74
   %scevgep89 = getelementptr i8, ptr %.15.i75, i64 %35
@@ -10677,7 +10796,7 @@ define ptr @move_beside(ptr readonly %.1, ptr readonly %.2, i64 %.3, ptr %.4) lo
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels11move_besideB4v116B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6, ptr nonnull poison, ptr %.1, ptr %.2, i64 %.3, ptr %.4) #0
   %.20 = load ptr, ptr %.6, align 8
   ret ptr %.20
 }
@@ -10747,7 +10866,7 @@ B442:
   %.410 = inttoptr i64 %.409 to ptr
   %.413 = load i64, ptr %arg.teams, align 8
   %.414 = mul nsw i64 %.413, %.374174176
-  %.10.i = call i32 @_ZN18biped_adrc_kernels11move_besideB4v115B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr readonly %.410, ptr readonly %arg.walks, i64 %.414, ptr %arg.impacts) #0
+  %.10.i = call i32 @_ZN18biped_adrc_kernels11move_besideB4v116B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a8int64_2ax8int64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr readonly %.410, ptr readonly %arg.walks, i64 %.414, ptr %arg.impacts) #0
   %exitcond.not4 = icmp eq i64 %.255.1, %.374174176
   br i1 %exitcond.not4, label %B544.endif, label %B442
 
@@ -11193,113 +11312,131 @@ attributes #9 = { nounwind }
 !266 = distinct !{!266, !267, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
 !267 = distinct !{!267, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
 !268 = !{!269}
-!269 = distinct !{!269, !270, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!270 = distinct !{!270, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!271 = !{!272, !269}
-!272 = distinct !{!272, !273, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!273 = distinct !{!273, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!274 = !{!275}
-!275 = distinct !{!275, !276, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!276 = distinct !{!276, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!277 = !{!278, !275}
-!278 = distinct !{!278, !279, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
-!279 = distinct !{!279, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
-!280 = !{!281}
-!281 = distinct !{!281, !282, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
-!282 = distinct !{!282, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!269 = distinct !{!269, !270, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!270 = distinct !{!270, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
+!271 = !{!272}
+!272 = distinct !{!272, !273, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!273 = distinct !{!273, !"_ZN18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!274 = !{!275, !272}
+!275 = distinct !{!275, !276, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!276 = distinct !{!276, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!277 = !{!278}
+!278 = distinct !{!278, !279, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!279 = distinct !{!279, !"_ZN18biped_adrc_kernels12release_timeB3v89B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
+!280 = !{!281, !278}
+!281 = distinct !{!281, !282, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a: %retptr"}
+!282 = distinct !{!282, !"_ZN18biped_adrc_kernels11clock_startB3v14B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a"}
 !283 = !{!284}
-!284 = distinct !{!284, !285, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!285 = distinct !{!285, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!284 = distinct !{!284, !285, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!285 = distinct !{!285, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
 !286 = !{!287}
-!287 = distinct !{!287, !288, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!288 = distinct !{!288, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!287 = distinct !{!287, !288, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!288 = distinct !{!288, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
 !289 = !{!290}
-!290 = distinct !{!290, !291, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
-!291 = distinct !{!291, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!290 = distinct !{!290, !291, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!291 = distinct !{!291, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
 !292 = !{!293}
-!293 = distinct !{!293, !294, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
-!294 = distinct !{!294, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
+!293 = distinct !{!293, !294, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!294 = distinct !{!294, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
 !295 = !{!296}
-!296 = distinct !{!296, !297, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
-!297 = distinct !{!297, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
+!296 = distinct !{!296, !297, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29: %retptr"}
+!297 = distinct !{!297, !"_ZN18biped_adrc_kernels7part_ofB3v95B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_289_29"}
 !298 = !{!299}
-!299 = distinct !{!299, !300, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29: %retptr"}
-!300 = distinct !{!300, !"_ZN18biped_adrc_kernels7part_ofB4v102B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29"}
+!299 = distinct !{!299, !300, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29: %retptr"}
+!300 = distinct !{!300, !"_ZN18biped_adrc_kernels7part_ofB3v96B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2811_29"}
 !301 = !{!302}
-!302 = distinct !{!302, !303, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29: %retptr"}
-!303 = distinct !{!303, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29"}
+!302 = distinct !{!302, !303, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29: %retptr"}
+!303 = distinct !{!303, !"_ZN18biped_adrc_kernels7part_ofB4v103B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_284_29"}
 !304 = !{!305}
-!305 = distinct !{!305, !306, !"_ZN18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29: %retptr"}
-!306 = distinct !{!306, !"_ZN18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29"}
+!305 = distinct !{!305, !306, !"_ZN18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29: %retptr"}
+!306 = distinct !{!306, !"_ZN18biped_adrc_kernels7part_ofB4v104B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_285_29"}
 !307 = !{!308}
-!308 = distinct !{!308, !309, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
-!309 = distinct !{!309, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!308 = distinct !{!308, !309, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29: %retptr"}
+!309 = distinct !{!309, !"_ZN18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29"}
 !310 = !{!311}
-!311 = distinct !{!311, !312, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
-!312 = distinct !{!312, !"_ZN18biped_adrc_kernels7part_ofB4v108B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
+!311 = distinct !{!311, !312, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax: %retptr"}
+!312 = distinct !{!312, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax"}
 !313 = !{!314}
-!314 = distinct !{!314, !315, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
-!315 = distinct !{!315, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
+!314 = distinct !{!314, !315, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29: %retptr"}
+!315 = distinct !{!315, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29"}
 !316 = !{!317}
-!317 = distinct !{!317, !318, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
-!318 = distinct !{!318, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
+!317 = distinct !{!317, !318, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd: %retptr"}
+!318 = distinct !{!318, !"_ZN18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd"}
 !319 = !{!320}
-!320 = distinct !{!320, !321, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29: %retptr"}
-!321 = distinct !{!321, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29"}
+!320 = distinct !{!320, !321, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
+!321 = distinct !{!321, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
 !322 = !{!323}
-!323 = distinct !{!323, !324, !"_ZN18biped_adrc_kernels7part_ofB4v112B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax: %retptr"}
-!324 = distinct !{!324, !"_ZN18biped_adrc_kernels7part_ofB4v112B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax"}
+!323 = distinct !{!323, !324, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29: %retptr"}
+!324 = distinct !{!324, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29"}
 !325 = !{!326}
-!326 = distinct !{!326, !327, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
-!327 = distinct !{!327, !"_ZN18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
+!326 = distinct !{!326, !327, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax: %retptr"}
+!327 = distinct !{!327, !"_ZN18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax"}
 !328 = !{!329}
-!329 = distinct !{!329, !330, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!330 = distinct !{!330, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!329 = distinct !{!329, !330, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
+!330 = distinct !{!330, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
 !331 = !{!332}
-!332 = distinct !{!332, !333, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!333 = distinct !{!333, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!332 = distinct !{!332, !333, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!333 = distinct !{!333, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
 !334 = !{!335}
-!335 = distinct !{!335, !336, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
-!336 = distinct !{!336, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!335 = distinct !{!335, !336, !"_ZN18biped_adrc_kernels7part_ofB4v113B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!336 = distinct !{!336, !"_ZN18biped_adrc_kernels7part_ofB4v113B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
 !337 = !{!338}
-!338 = distinct !{!338, !339, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
-!339 = distinct !{!339, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!338 = distinct !{!338, !339, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29: %retptr"}
+!339 = distinct !{!339, !"_ZN18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29"}
 !340 = !{!341}
-!341 = distinct !{!341, !342, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
-!342 = distinct !{!342, !"_ZN18biped_adrc_kernels7part_ofB3v98B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!341 = distinct !{!341, !342, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!342 = distinct !{!342, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
 !343 = !{!344}
-!344 = distinct !{!344, !345, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
-!345 = distinct !{!345, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
-!346 = distinct !{!346, !4}
-!347 = !{!348}
-!348 = distinct !{!348, !349, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!349 = distinct !{!349, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
-!350 = !{!351}
-!351 = distinct !{!351, !352, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax: %retptr"}
-!352 = distinct !{!352, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax"}
-!353 = !{!354}
-!354 = distinct !{!354, !355, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
-!355 = distinct !{!355, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
-!356 = !{!357}
-!357 = distinct !{!357, !358, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
-!358 = distinct !{!358, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
-!359 = distinct !{!359, !4}
-!360 = !{!361}
-!361 = distinct !{!361, !362, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
-!362 = distinct !{!362, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
-!363 = !{!364}
-!364 = distinct !{!364, !365, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
-!365 = distinct !{!365, !"_ZN18biped_adrc_kernels7part_ofB4v106B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
-!366 = !{!367}
-!367 = distinct !{!367, !368, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
-!368 = distinct !{!368, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
-!369 = distinct !{!369, !4}
-!370 = !{!371}
-!371 = distinct !{!371, !372, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
-!372 = distinct !{!372, !"_ZN18biped_adrc_kernels7part_ofB4v117B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
-!373 = !{!374}
-!374 = distinct !{!374, !375, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!375 = distinct !{!375, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
-!376 = !{!377}
-!377 = distinct !{!377, !378, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!378 = distinct !{!378, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!344 = distinct !{!344, !345, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29: %retptr"}
+!345 = distinct !{!345, !"_ZN18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29"}
+!346 = !{!347}
+!347 = distinct !{!347, !348, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!348 = distinct !{!348, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!349 = !{!350}
+!350 = distinct !{!350, !351, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!351 = distinct !{!351, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!352 = !{!353}
+!353 = distinct !{!353, !354, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29: %retptr"}
+!354 = distinct !{!354, !"_ZN18biped_adrc_kernels7part_ofB3v94B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_280_29"}
+!355 = !{!356}
+!356 = distinct !{!356, !357, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29: %retptr"}
+!357 = distinct !{!357, !"_ZN18biped_adrc_kernels7part_ofB4v100B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_288_29"}
+!358 = !{!359}
+!359 = distinct !{!359, !360, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29: %retptr"}
+!360 = distinct !{!360, !"_ZN18biped_adrc_kernels7part_ofB3v99B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_287_29"}
+!361 = !{!362}
+!362 = distinct !{!362, !363, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add: %retptr"}
+!363 = distinct !{!363, !"_ZN18biped_adrc_kernels5stepsB3v86B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add"}
+!364 = distinct !{!364, !4}
+!365 = !{!366}
+!366 = distinct !{!366, !367, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!367 = distinct !{!367, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!368 = !{!369}
+!369 = distinct !{!369, !370, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax: %retptr"}
+!370 = distinct !{!370, !"_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax"}
+!371 = !{!372}
+!372 = distinct !{!372, !373, !"_ZN18biped_adrc_kernels7part_ofB4v113B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!373 = distinct !{!373, !"_ZN18biped_adrc_kernels7part_ofB4v113B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!374 = !{!375}
+!375 = distinct !{!375, !376, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!376 = distinct !{!376, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
+!377 = distinct !{!377, !4}
+!378 = !{!379}
+!379 = distinct !{!379, !380, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
+!380 = distinct !{!380, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
+!381 = !{!382}
+!382 = distinct !{!382, !383, !"_ZN18biped_adrc_kernels7part_ofB4v113B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29: %retptr"}
+!383 = distinct !{!383, !"_ZN18biped_adrc_kernels7part_ofB4v113B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_281_29"}
+!384 = !{!385}
+!385 = distinct !{!385, !386, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29: %retptr"}
+!386 = distinct !{!386, !"_ZN18biped_adrc_kernels7part_ofB3v97B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2814_29"}
+!387 = distinct !{!387, !4}
+!388 = !{!389}
+!389 = distinct !{!389, !390, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29: %retptr"}
+!390 = distinct !{!390, !"_ZN18biped_adrc_kernels7part_ofB4v118B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2815_29"}
+!391 = !{!392}
+!392 = distinct !{!392, !393, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!393 = distinct !{!393, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
+!394 = !{!395}
+!395 = distinct !{!395, !396, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
+!396 = distinct !{!396, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}

@@ -6,7 +6,8 @@ those on the way to the next one; in continuous time a sample is a step of integ
 walk alone is, and comes back at its next sample instant: at an impact and right after it, where a push
 switches, at an end of any kind. Of a walk in a lane the run r has the time, and the block alone has the state.
 
-A team s is what the lanes have in common, in a `Run` of its own: K, push and functions are for all lanes.
+A team s is what the lanes have in common, in a `Run` of its own: K, push and functions are for all lanes. Its
+`tick`, `flow` and `events` are `tick`, `slope` and `step` of `engine.stretch`.
 """
 
 from __future__ import annotations
@@ -129,6 +130,8 @@ def leave(s: Run, lane: int, r: Run, block: Array) -> None:
     get(s, lane, part_of(s, block, X), r.x0, r.nx)
     get(s, lane, part_of(s, block, VALUES), r.values, r.guards)
     get(s, lane, part_of(s, block, SLOPE), r.dx0, r.moving)
+    # zeta of the last slope, which a node at a jump of the force from outside reads
+    get(s, lane, part_of(s, block, STAGE_LOAD), shift(r.inp, 3 + r.nx), r.n)
 
 
 @unit
@@ -157,11 +160,13 @@ def enter(s: Run, lane: int, r: Run, block: Array) -> None:
 
 # -- a sample of all -------------------------------------------------------------------------------
 @unit
-def store_nodes(s: Run) -> None:
-    """Store a node of each walk at its time in the block `then`, if nodes are kept."""
+def store_nodes(s: Run, load_of: int) -> None:
+    """Store a node of each walk at its time in the block `then`, if nodes are kept; load_of: LOAD or
+    STAGE_LOAD, the part that has the force from outside there.
+    """
     if s.look != 0:
         call(s.look, s.K, s.then, s.results)
-        load, size = shift(part_of(s, s.then, LOAD), s.n * s.lanes), s.width - 4
+        load, size = shift(part_of(s, s.then, load_of), s.n * s.lanes), s.width - 4
         for lane in range(s.lanes):
             if s.team[lane] != 0:
                 r = run_at(s.team[lane])
@@ -180,8 +185,8 @@ def aim(s: Run, j: int, count: int, t0: Array, t_next: Array) -> None:
         t1 = t0[lane] + j * s.h if j < count else t_next[lane]
         part_of(s, block, T1)[lane] = t1
         part_of(s, block, LIMIT)[lane] = left(t_next[lane]) if s.period > 0.0 else math.inf
-        if s.lags > 0:
-            four = weights(s.lag_speed * (t1 - block[lane]))
+        if s.lags > 0 and s.team[lane] != 0:
+            four = weights(run_at(s.team[lane]).lag_speed * (t1 - block[lane]))
             w[lane], w[s.lanes + lane] = four[0], four[1]
             w[2 * s.lanes + lane], w[3 * s.lanes + lane] = four[2], four[3]
 
@@ -198,7 +203,15 @@ def flight(s: Run, t0: Array, until: int, count: int) -> None:
         copy(part_of(s, s.then, T1), s.then, s.lanes)
         if j < count:
             call(s.flow, s.K, s.then, s.then)
-            store_nodes(s)
+            store_nodes(s, STAGE_LOAD)
+        elif s.look != 0 and s.pulled != 0:
+            # the node before a break, as `operations.node` stores it: zeta is that of the last slope, the force
+            # that just before the break
+            copy(part_of(s, s.then, STAGE_LOAD), part_of(s, s.then, LOAD), s.n * s.lanes)
+            copy(part_of(s, s.then, LIMIT), s.then, s.lanes)
+            call(s.pushes, s.push, s.then, part_of(s, s.then, STAGE_LOAD))
+            copy(part_of(s, s.then, T1), s.then, s.lanes)
+            store_nodes(s, STAGE_LOAD)
 
 
 @unit
@@ -210,7 +223,7 @@ def sample_all(s: Run) -> None:
         call(s.flow, s.K, s.then, s.then)
         return
     call(s.tick, s.K, s.now, s.then)
-    store_nodes(s)
+    store_nodes(s, LOAD)
     if s.part == 0.0:
         flight(s, s.now, NEXT, steps(s, 0.0, s.period))
     else:
@@ -220,7 +233,7 @@ def sample_all(s: Run) -> None:
         copy(shift(end, -s.p * s.lanes), end, s.p * s.lanes)
         aim(s, 1, 1, s.now, part_of(s, s.then, NEXT))
         call(s.flow, s.K, s.then, s.then)
-        store_nodes(s)
+        store_nodes(s, STAGE_LOAD)
         flight(s, part_of(s, s.then, BREAK), NEXT, steps(s, s.part, s.period))
 
 

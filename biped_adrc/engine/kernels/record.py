@@ -39,9 +39,9 @@ VALUES, MARK, SLOPE, WEIGHTS, STAGE, STAGE_LOAD, END = range(9, 16)
 """State (nx,); disturbance (n,) and force from outside (OUTSIDE,) at t; end of the step [s]; latest time [s] at
 which the disturbance is evaluated in it; how much lower the ground is at the end of this single support [m];
 bounds of angles [rad] and rates (n,) [rad/s]; time [s] from which the waiting torque acts, and of the next
-sample instant; event functions (3,) at t; mark, 1 where all went as usual, else 0; x' (nx,) at t; weights of
-lagging torques (4,); time, single support and (q, v) at a stage, and disturbance and force there. At END stand
-two cells: the address of the compiled disturbance, 0 for none, and of its numbers."""
+sample instant; event functions (3,) at t; mark, 1 where nothing else happened, else 0; x' (nx,) at t; weights
+of lagging torques (4,); time, single support and (q, v) at a stage, and disturbance and force there. At END
+stand two cells: the address of the compiled disturbance, 0 for none, and of its numbers."""
 
 
 def block_rows(n: int, nx: int) -> Ints:
