@@ -97,12 +97,12 @@ class Lanes:
         parts = {name: aligned(size) for name, size in sizes.items()}
         for name in ("now", "then"):
             parts[name][rows:].view(np.int64)[:] = self.laws["pushes"], parts["push"].ctypes.data
-        whole = {"at": at, "team": np.zeros(lanes, np.int64), "seats": np.zeros(lanes, np.int64)}
-        for name, x in (parts | whole).items():
+        whole = {name: np.zeros(lanes, np.int64) for name in ("team", "seats", "ready")}
+        for name, x in (parts | whole | {"at": at}).items():
             run[name] = x.ctypes.data
         for name, address in (self.laws | {"lanes": lanes}).items():
             run[name] = address
-        return Team(run, whole["seats"], [*parts.values(), *whole.values()])
+        return Team(run, whole["ready"], [*parts.values(), *whole.values(), at])
 
     def run(self, runs: Sequence[CompiledRun]) -> list[Status]:
         """Move these runs to their ends or over their impacts; returns how each ended. Any thread may do so."""
@@ -125,8 +125,8 @@ class Team(NamedTuple):
 
     run: CompiledRun
     """The record of what they have in common."""
-    seats: Ints
-    """What sits in each lane."""
+    ready: Ints
+    """Which lanes have a walk that may go side by side, as `record.Run.ready`."""
     parts: list[NDArray[Any]]
     """The arrays whose addresses the record has."""
 

@@ -318,8 +318,8 @@ class SampledWalks:
             if key is not None and not self._teams:
                 self._begin_teams(walk, key)
         if self._teams:
-            team, lane = divmod(i, len(self._teams[0].seats))
-            self._teams[team].seats[lane] = key is not None and key == self._key
+            team, lane = divmod(i, len(self._teams[0].ready))
+            self._teams[team].ready[lane] = key is not None and key == self._key
 
     def _begin_teams(self, walk: CompiledWalk, key: Hashable) -> None:
         """Make teams for walks like this one."""

@@ -1,4 +1,4 @@
-; sources caf77d898fc597a544ee361684de45c0, text 63893a29c3ff1c28d686b707da7507f8
+; sources 4dab8ff2cf73f3fbcc8af81060bf263b, text 12dea6c19b4e8a8749f04ec251a81195
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -25,9 +25,9 @@
 @_ZN08NumbaEnv18biped_adrc_kernels7rk4_sumB3v25B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ad10float64_2a10float64_2a10float64_2a10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5halveB3v35B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axdddd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython7numbers14int_power_impl12_3clocals_3e9int_powerB3v37B42c8tJTC_2fWQA93W1AaAIYBPIqRBFCjDSZRVAJmaQIAEdx = weak local_unnamed_addr global ptr null
-@.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f = internal constant [131 x i8] c"\80\04\95x\00\00\00\00\00\00\00\8C\08builtins\94\8C\0DOverflowError\94\93\94)\8C\09int_power\94\8CD/work/t2/.venv/lib/python3.11/site-packages/numba/cpython/numbers.py\94K\DE\87\94\87\94."
-@.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f.sha1 = internal constant [20 x i8] c"\06Y\DC\C2c\85\F9d\A9\EB\07\11(\1D\DB\B46G\C1\1F"
-@.const.picklebuf.0659dcc26385f964a9eb0711281ddbb43647c11f = internal constant { ptr, i32, ptr, ptr, i32 } { ptr @.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f, i32 131, ptr @.const.pickledata.0659dcc26385f964a9eb0711281ddbb43647c11f.sha1, ptr null, i32 0 }
+@.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd = internal constant [133 x i8] c"\80\04\95z\00\00\00\00\00\00\00\8C\08builtins\94\8C\0DOverflowError\94\93\94)\8C\09int_power\94\8CF/work/main/.venv/lib/python3.11/site-packages/numba/cpython/numbers.py\94K\DE\87\94\87\94."
+@.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd.sha1 = internal constant [20 x i8] c"\89(\CF6}\CD\B5\B0og\CC\E6\84t\C0\D7}a\C7\BD"
+@.const.picklebuf.8928cf367dcdb5b06f67cce68474c0d77d61c7bd = internal constant { ptr, i32, ptr, ptr, i32 } { ptr @.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd, i32 133, ptr @.const.pickledata.8928cf367dcdb5b06f67cce68474c0d77d61c7bd.sha1, ptr null, i32 0 }
 @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366 = internal constant [69 x i8] c"\80\04\95:\00\00\00\00\00\00\00\8C\08builtins\94\8C\11ZeroDivisionError\94\93\94\8C\10division by zero\94\85\94N\87\94."
 @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366.sha1 = internal constant [20 x i8] c"\B2\80\08\A0\F8\8B\AD_\F0\F0$>\84\DA\B9\0C\AB\19\B3f"
 @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366 = internal constant { ptr, i32, ptr, ptr, i32 } { ptr @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366, i32 69, ptr @.const.pickledata.b28008a0f88bad5ff0f0243e84dab90cab19b366.sha1, ptr null, i32 0 }
@@ -75,7 +75,7 @@
 @_ZN08NumbaEnv18biped_adrc_kernels8set_timeB2v7B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2ad = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4pushB3v81B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10move_aloneB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels8is_plainB3v85B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -84,7 +84,7 @@
 @_ZN08NumbaEnv18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels3getB3v91B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels11put_numbersB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels12begin_sampleB3v98B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels9tick_timeB3v84B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -100,11 +100,11 @@
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v105B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_286_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels11store_nodesB4v106B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB3v12B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIxLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels3aimB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7set_endB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v109B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2812_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels4leftB3v59B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels10relaxationB3v21B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAEd = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6flightB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10take_stepsB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v107B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v110B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_282_29 = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels7part_ofB4v111B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a23Literal_5bint_5d_283_29 = weak local_unnamed_addr global ptr null
@@ -147,7 +147,7 @@ B70.lr.ph:
 
 B70.lr.ph.new:
   %unroll_iter = and i64 %..10, 9223372036854775800
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 656
   br label %B70
 
 B70:
@@ -301,7 +301,7 @@ B94.endif.loopexit.unr-lcssa:
 
 B70.epil.preheader:
   %.1098284.epil.init = phi i64 [ 0, %B70.lr.ph ], [ %unroll_iter, %B94.endif.loopexit.unr-lcssa ]
-  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr115 = getelementptr i8, ptr %arg.r, i64 656
   br label %B70.epil
 
 B70.epil:
@@ -327,8 +327,8 @@ B136.lr.ph:
   %.279 = getelementptr i8, ptr %arg.r, i64 320
   %.280.pre = load i64, ptr %.279, align 8
   %xtraiter.i = and i64 %.10, 7
-  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 632
-  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 656
+  %sunkaddr116 = getelementptr i8, ptr %arg.r, i64 640
+  %sunkaddr117 = getelementptr i8, ptr %arg.r, i64 664
   br i1 %.59, label %B136.us.preheader, label %B136.lr.ph.split
 
 B136.us.preheader:
@@ -367,7 +367,7 @@ B136.lr.ph.split:
 B136.preheader:
   %7 = inttoptr i64 %.13 to ptr
   %8 = icmp eq i64 %xtraiter.i, 0
-  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr114 = getelementptr i8, ptr %arg.r, i64 656
   %9 = sub nsw i64 %.9.fr, %xtraiter.i
   %10 = shl nuw nsw i64 %xtraiter.i, 3
   br label %B136
@@ -378,7 +378,7 @@ B136.lr.ph.split.split.us:
   br i1 %11, label %B136.us2.us, label %B136.us2.preheader
 
 B136.us2.preheader:
-  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 648
+  %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 656
   br label %B136.us2
 
 B136.us2.us:
@@ -531,7 +531,7 @@ B0:
   %excinfo.5 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 80
   %.18 = load i64, ptr %.17, align 8
-  %.20 = getelementptr i8, ptr %arg.r, i64 632
+  %.20 = getelementptr i8, ptr %arg.r, i64 640
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
   %.24 = getelementptr i8, ptr %arg.r, i64 96
@@ -597,7 +597,7 @@ B58.i:
   br label %B258.endif.endif
 
 B258.endif.endif:
-  %.176 = getelementptr i8, ptr %arg.r, i64 648
+  %.176 = getelementptr i8, ptr %arg.r, i64 656
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
   %0 = getelementptr double, ptr %.22, i64 %.18
@@ -834,7 +834,7 @@ B0:
   %excinfo.4 = alloca ptr, align 8
   %.188 = alloca ptr, align 8
   %excinfo.5 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 632
+  %.17 = getelementptr i8, ptr %arg.r, i64 640
   %.18 = load i64, ptr %.17, align 8
   %.24 = getelementptr i8, ptr %arg.r, i64 200
   %.25 = load i64, ptr %.24, align 8
@@ -848,7 +848,7 @@ B40:
   %.32 = getelementptr i8, ptr %arg.r, i64 272
   %.33 = load i64, ptr %.32, align 8
   %.34 = inttoptr i64 %.33 to ptr
-  %.36 = getelementptr i8, ptr %arg.r, i64 640
+  %.36 = getelementptr i8, ptr %arg.r, i64 648
   %.37 = load i64, ptr %.36, align 8
   %.38 = inttoptr i64 %.37 to ptr
   %.40 = inttoptr i64 %.30 to ptr
@@ -911,7 +911,7 @@ B194.endif.endif:
   ], !prof !8
 
 B194.endif.endif.endif:
-  %.176 = getelementptr i8, ptr %arg.r, i64 648
+  %.176 = getelementptr i8, ptr %arg.r, i64 656
   %.177 = load i64, ptr %.176, align 8
   %.178 = inttoptr i64 %.177 to ptr
   %.181 = load i64, ptr %.145, align 8
@@ -976,7 +976,7 @@ B0:
   %.10 = load double, ptr %.8, align 8
   %.11 = getelementptr i8, ptr %arg.r, i64 504
   %.13 = load double, ptr %.11, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 632
+  %.14 = getelementptr i8, ptr %arg.r, i64 640
   %.15 = load i64, ptr %.14, align 8
   %.16 = inttoptr i64 %.15 to ptr
   store double %arg.t, ptr %.16, align 8
@@ -1048,7 +1048,7 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 80
   %.18 = load i64, ptr %.17, align 8
-  %.20 = getelementptr i8, ptr %arg.r, i64 624
+  %.20 = getelementptr i8, ptr %arg.r, i64 632
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
   %.24 = getelementptr i8, ptr %arg.r, i64 408
@@ -1072,7 +1072,7 @@ B118:
   ], !prof !8
 
 B250:
-  %.123 = getelementptr i8, ptr %arg.r, i64 632
+  %.123 = getelementptr i8, ptr %arg.r, i64 640
   %.124 = load i64, ptr %.123, align 8
   %.125 = inttoptr i64 %.124 to ptr
   %.126 = getelementptr i8, ptr %.125, i64 24
@@ -1149,7 +1149,7 @@ B414.endif:
   %.25.i = getelementptr i8, ptr %.24.i, i64 16
   store double %.11.i, ptr %.25.i, align 8, !noalias !40
   %.254 = load double, ptr %.6.i, align 8
-  %.256 = getelementptr i8, ptr %arg.r, i64 648
+  %.256 = getelementptr i8, ptr %arg.r, i64 656
   %.257 = load i64, ptr %.256, align 8
   %.258 = inttoptr i64 %.257 to ptr
   %.260 = getelementptr i8, ptr %arg.r, i64 72
@@ -1223,11 +1223,11 @@ B0:
   %.9 = load i64, ptr %.8, align 8
   %.11 = getelementptr i8, ptr %arg.r, i64 80
   %.12 = load i64, ptr %.11, align 8
-  %.14 = getelementptr i8, ptr %arg.r, i64 688
+  %.14 = getelementptr i8, ptr %arg.r, i64 696
   %.15 = load i64, ptr %.14, align 8
-  %.18 = getelementptr i8, ptr %arg.r, i64 640
+  %.18 = getelementptr i8, ptr %arg.r, i64 648
   %.19 = load i64, ptr %.18, align 8
-  %.22 = getelementptr i8, ptr %arg.r, i64 696
+  %.22 = getelementptr i8, ptr %arg.r, i64 704
   %.23 = load i64, ptr %.22, align 8
   %.51 = getelementptr i8, ptr %arg.r, i64 216
   %.53 = load double, ptr %.51, align 8
@@ -1432,7 +1432,7 @@ B186.endif:
   %.161 = getelementptr i8, ptr %arg.r, i64 272
   %.162 = load i64, ptr %.161, align 8
   %.163 = inttoptr i64 %.162 to ptr
-  %.165 = getelementptr i8, ptr %arg.r, i64 632
+  %.165 = getelementptr i8, ptr %arg.r, i64 640
   %.166 = load i64, ptr %.165, align 8
   %.167 = inttoptr i64 %.166 to ptr
   %.169 = inttoptr i64 %.159 to ptr
@@ -1656,7 +1656,7 @@ B0:
   %excinfo.1 = alloca ptr, align 8
   %.112 = alloca ptr, align 8
   %excinfo.4 = alloca ptr, align 8
-  %.7 = getelementptr i8, ptr %arg.r, i64 632
+  %.7 = getelementptr i8, ptr %arg.r, i64 640
   %.8 = load i64, ptr %.7, align 8
   %.9 = inttoptr i64 %.8 to ptr
   %.10 = getelementptr i8, ptr %.9, i64 24
@@ -1706,7 +1706,7 @@ B58.i:
   br label %B0.endif.endif.endif
 
 B0.endif.endif.endif:
-  %.99 = getelementptr i8, ptr %arg.r, i64 648
+  %.99 = getelementptr i8, ptr %arg.r, i64 656
   %.100 = load i64, ptr %.99, align 8
   %.101 = inttoptr i64 %.100 to ptr
   %.103 = load i64, ptr %.7, align 8
@@ -1766,7 +1766,7 @@ B0:
   %.13 = getelementptr i8, ptr %arg.r, i64 256
   %.15 = load double, ptr %.13, align 8
   %.17 = fmul double %arg.h, %.15
-  %.22 = getelementptr i8, ptr %arg.r, i64 720
+  %.22 = getelementptr i8, ptr %arg.r, i64 728
   %.23 = load i64, ptr %.22, align 8
   %.24 = inttoptr i64 %.23 to ptr
   %.25 = getelementptr i8, ptr %arg.r, i64 80
@@ -2256,7 +2256,7 @@ B0:
   %.26 = getelementptr i8, ptr %arg.r, i64 80
   %.27 = load i64, ptr %.26, align 8
   %.31 = sub nsw i64 %.27, %.24
-  %.33 = getelementptr i8, ptr %arg.r, i64 720
+  %.33 = getelementptr i8, ptr %arg.r, i64 728
   %.34 = load i64, ptr %.33, align 8
   %.67 = icmp sgt i64 %.31, 0
   br i1 %.67, label %B92, label %B244
@@ -2312,7 +2312,7 @@ B450:
 
 B486:
   %.285 = fadd double %arg.t, %.218
-  %.287 = getelementptr i8, ptr %arg.r, i64 736
+  %.287 = getelementptr i8, ptr %arg.r, i64 744
   %.288 = load i64, ptr %.287, align 8
   %.289 = inttoptr i64 %.288 to ptr
   %.292 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %1, ptr %.289)
@@ -2332,7 +2332,7 @@ B620:
   ], !prof !8
 
 B656:
-  %.371 = getelementptr i8, ptr %arg.r, i64 744
+  %.371 = getelementptr i8, ptr %arg.r, i64 752
   %.372 = load i64, ptr %.371, align 8
   %.373 = inttoptr i64 %.372 to ptr
   %.376 = tail call ptr @flow(ptr nonnull %arg.r, double %.285, ptr %1, ptr %.373)
@@ -2353,7 +2353,7 @@ B784:
 
 B820:
   %.451 = fadd double %arg.t, %arg.h
-  %.455 = getelementptr i8, ptr %arg.r, i64 752
+  %.455 = getelementptr i8, ptr %arg.r, i64 760
   %.456 = load i64, ptr %.455, align 8
   %.457 = inttoptr i64 %.456 to ptr
   %.460 = tail call ptr @flow(ptr nonnull %arg.r, double %.451, ptr %1, ptr %.457)
@@ -2385,7 +2385,7 @@ B266.endif:
   %.168.fca.2.load = load double, ptr %sunkaddr1, align 8
   %sunkaddr2 = getelementptr inbounds nuw i8, ptr %.154, i64 8
   %.168.fca.1.load = load double, ptr %sunkaddr2, align 8
-  %.201 = getelementptr i8, ptr %arg.r, i64 728
+  %.201 = getelementptr i8, ptr %arg.r, i64 736
   %.202 = load i64, ptr %.201, align 8
   %.203 = inttoptr i64 %.202 to ptr
   %.208 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %arg.x, double %arg.h, ptr %.203)
@@ -3029,14 +3029,14 @@ B0.endif.endif.endif.endif:
   %.11.i14 = add nsw i64 %.10.i, 4
   %.17.i18 = mul i64 %.14.i, %.11.i14
   %.18.i19 = getelementptr double, ptr %.9.i, i64 %.17.i18
-  %.88 = getelementptr i8, ptr %arg.r, i64 808
+  %.88 = getelementptr i8, ptr %arg.r, i64 816
   %.89 = load i64, ptr %.88, align 8
   %.90 = inttoptr i64 %.89 to ptr
-  %.91 = getelementptr i8, ptr %arg.r, i64 816
+  %.91 = getelementptr i8, ptr %arg.r, i64 824
   %.92 = load i64, ptr %.91, align 8
   %.94 = getelementptr i8, ptr %arg.r, i64 104
   %.95 = load i64, ptr %.94, align 8
-  %.105 = getelementptr i8, ptr %arg.r, i64 824
+  %.105 = getelementptr i8, ptr %arg.r, i64 832
   %.106 = load i64, ptr %.105, align 8
   %.107 = inttoptr i64 %.106 to ptr
   %.8.i20 = getelementptr i8, ptr %arg.r, i64 56
@@ -3089,7 +3089,7 @@ B0.endif.endif.endif.endif.endif.endif.endif:
 
 B0.endif.endif.endif.endif.endif.endif.endif.endif:
   %.244 = fadd double %arg.t, %.193
-  %.245 = getelementptr i8, ptr %arg.r, i64 864
+  %.245 = getelementptr i8, ptr %arg.r, i64 872
   %.246 = load i64, ptr %.245, align 8
   %.247 = inttoptr i64 %.246 to ptr
   %.248 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %.90, ptr %.247)
@@ -3111,7 +3111,7 @@ B0.endif.endif.endif.endif.endif.endif.endif.endif.endif:
   ], !prof !8
 
 B0.endif.endif.endif.endi...endif.1.endif:
-  %.308 = getelementptr i8, ptr %arg.r, i64 872
+  %.308 = getelementptr i8, ptr %arg.r, i64 880
   %.309 = load i64, ptr %.308, align 8
   %.310 = inttoptr i64 %.309 to ptr
   %.311 = tail call ptr @remainder(ptr nonnull %arg.r, double %.244, ptr %0, ptr %.310)
@@ -3147,7 +3147,7 @@ B0.endif.endif.endif.endi...endif.1.endif.endif.endif:
 
 B0.endif.endif.endif.endi...endif.2.endif.endif.endif:
   %.418 = fadd double %arg.t, %arg.h
-  %.419 = getelementptr i8, ptr %arg.r, i64 880
+  %.419 = getelementptr i8, ptr %arg.r, i64 888
   %.420 = load i64, ptr %.419, align 8
   %.421 = inttoptr i64 %.420 to ptr
   %.422 = tail call ptr @remainder(ptr nonnull %arg.r, double %.418, ptr %0, ptr %.421)
@@ -3474,16 +3474,16 @@ B0:
   %excinfo.5 = alloca ptr, align 8
   %.25 = getelementptr i8, ptr %arg.r, i64 128
   %.26 = load i64, ptr %.25, align 8
-  %.38 = getelementptr i8, ptr %arg.r, i64 832
+  %.38 = getelementptr i8, ptr %arg.r, i64 840
   %.39 = load i64, ptr %.38, align 8
   %.40 = inttoptr i64 %.39 to ptr
-  %.42 = getelementptr i8, ptr %arg.r, i64 888
+  %.42 = getelementptr i8, ptr %arg.r, i64 896
   %.43 = load i64, ptr %.42, align 8
-  %.46 = getelementptr i8, ptr %arg.r, i64 840
+  %.46 = getelementptr i8, ptr %arg.r, i64 848
   %.47 = load i64, ptr %.46, align 8
-  %.50 = getelementptr i8, ptr %arg.r, i64 776
+  %.50 = getelementptr i8, ptr %arg.r, i64 784
   %.51 = load i64, ptr %.50, align 8
-  %.91 = getelementptr i8, ptr %arg.r, i64 792
+  %.91 = getelementptr i8, ptr %arg.r, i64 800
   %.92 = load i64, ptr %.91, align 8
   %.93 = inttoptr i64 %.92 to ptr
   %.95 = getelementptr i8, ptr %arg.r, i64 80
@@ -3538,7 +3538,7 @@ B631:
 
 B0.endif:
   %0 = inttoptr i64 %.43 to ptr
-  %.126 = getelementptr i8, ptr %arg.r, i64 848
+  %.126 = getelementptr i8, ptr %arg.r, i64 856
   %.127 = load i64, ptr %.126, align 8
   %.128 = inttoptr i64 %.127 to ptr
   %.130 = getelementptr i8, ptr %arg.r, i64 120
@@ -3612,7 +3612,7 @@ B0.endif.if.if:
   br label %common.ret
 
 B0.endif.endif.if.if:
-  %excinfo.3.0 = phi ptr [ @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366, %B338.i ], [ @.const.picklebuf.0659dcc26385f964a9eb0711281ddbb43647c11f, %B62.i ]
+  %excinfo.3.0 = phi ptr [ @.const.picklebuf.b28008a0f88bad5ff0f0243e84dab90cab19b366, %B338.i ], [ @.const.picklebuf.8928cf367dcdb5b06f67cce68474c0d77d61c7bd, %B62.i ]
   store ptr %excinfo.3.0, ptr %excinfo, align 8
   br label %common.ret
 
@@ -3628,7 +3628,7 @@ B262.lr.ph:
   %3 = inttoptr i64 %.51 to ptr
   %sunkaddr15 = getelementptr i8, ptr %arg.r, i64 40
   %sunkaddr16 = getelementptr i8, ptr %arg.r, i64 272
-  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr17 = getelementptr i8, ptr %arg.r, i64 688
   br label %B262
 
 B394.endif:
@@ -3669,7 +3669,7 @@ B630.endif:
   %.11.i5 = inttoptr i64 %.10.i4 to ptr
   %.12.i6 = inttoptr i64 %.8.i2 to ptr
   tail call void %.12.i6(ptr %.11.i5, ptr %.40, ptr %4), !noalias !106
-  %.572 = getelementptr i8, ptr %arg.r, i64 784
+  %.572 = getelementptr i8, ptr %arg.r, i64 792
   %.573 = load i64, ptr %.572, align 8
   %.574 = inttoptr i64 %.573 to ptr
   %.578 = tail call ptr @flow(ptr %arg.r, double %now.2.0.lcssa, ptr %4, ptr %.574)
@@ -3722,40 +3722,40 @@ B36:
   br i1 %.22.i, label %common.ret, label %B70.i
 
 B70.i:
-  %.35 = getelementptr i8, ptr %arg.r, i64 784
+  %.35 = getelementptr i8, ptr %arg.r, i64 792
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
-  %.31 = getelementptr i8, ptr %arg.r, i64 776
+  %.31 = getelementptr i8, ptr %arg.r, i64 784
   %.32 = load i64, ptr %.31, align 8
   %.33 = inttoptr i64 %.32 to ptr
   %.27 = getelementptr i8, ptr %arg.r, i64 528
   %.29 = load double, ptr %.27, align 8
   %.62.i = fsub double %arg.s, %.29
-  %.64.i = getelementptr i8, ptr %arg.r, i64 760
+  %.64.i = getelementptr i8, ptr %arg.r, i64 768
   %.65.i = load i64, ptr %.64.i, align 8, !noalias !109
   %.66.i = inttoptr i64 %.65.i to ptr
   %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %.29, ptr %.33, ptr %.37, double %.62.i, ptr %.66.i), !noalias !109
   br label %common.ret
 
 B70.i4:
-  %.78 = getelementptr i8, ptr %arg.r, i64 696
+  %.78 = getelementptr i8, ptr %arg.r, i64 704
   %.79 = load i64, ptr %.78, align 8
   %.80 = inttoptr i64 %.79 to ptr
-  %.74 = getelementptr i8, ptr %arg.r, i64 688
+  %.74 = getelementptr i8, ptr %arg.r, i64 696
   %.75 = load i64, ptr %.74, align 8
   %.76 = inttoptr i64 %.75 to ptr
   %.62.i5 = fsub double %arg.s, %arg.t0
-  %.64.i6 = getelementptr i8, ptr %arg.r, i64 760
+  %.64.i6 = getelementptr i8, ptr %arg.r, i64 768
   %.65.i7 = load i64, ptr %.64.i6, align 8, !noalias !112
   %.66.i8 = inttoptr i64 %.65.i7 to ptr
   %.71.i9 = tail call ptr @classical(ptr nonnull %arg.r, double %arg.t0, ptr %.76, ptr %.80, double %.62.i5, ptr %.66.i8), !noalias !112
   br label %common.ret
 
 common.ret:
-  %.80.i10 = getelementptr i8, ptr %arg.r, i64 760
+  %.80.i10 = getelementptr i8, ptr %arg.r, i64 768
   %.81.i11 = load i64, ptr %.80.i10, align 8, !noalias !115
   %.82.i12 = inttoptr i64 %.81.i11 to ptr
-  %.84.i13 = getelementptr i8, ptr %arg.r, i64 680
+  %.84.i13 = getelementptr i8, ptr %arg.r, i64 688
   %.85.i14 = load i64, ptr %.84.i13, align 8, !noalias !115
   %.86.i15 = inttoptr i64 %.85.i14 to ptr
   %.89.i16 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.s, ptr %.82.i12, ptr %.86.i15), !noalias !115
@@ -3776,20 +3776,20 @@ define i32 @_ZN18biped_adrc_kernels6locateB3v41B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yR
 B0:
   %.241 = alloca double, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.28 = getelementptr i8, ptr %arg.r, i64 664
+  %.28 = getelementptr i8, ptr %arg.r, i64 672
   %.29 = load i64, ptr %.28, align 8
   %.30 = inttoptr i64 %.29 to ptr
   %.32 = getelementptr double, ptr %.30, i64 %arg.guard
   %.33 = load double, ptr %.32, align 8
-  %.35 = getelementptr i8, ptr %arg.r, i64 672
+  %.35 = getelementptr i8, ptr %arg.r, i64 680
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
   %.39 = getelementptr double, ptr %.37, i64 %arg.guard
   %.40 = load double, ptr %.39, align 8
-  %.56 = getelementptr i8, ptr %arg.r, i64 688
+  %.56 = getelementptr i8, ptr %arg.r, i64 696
   %.57 = load i64, ptr %.56, align 8
   %.58 = inttoptr i64 %.57 to ptr
-  %.60 = getelementptr i8, ptr %arg.r, i64 696
+  %.60 = getelementptr i8, ptr %arg.r, i64 704
   %.61 = load i64, ptr %.60, align 8
   %.74 = getelementptr i8, ptr %arg.r, i64 144
   %.75 = load i64, ptr %.74, align 8
@@ -3804,16 +3804,16 @@ B120:
   %.106 = load double, ptr %.104, align 8
   %.108 = getelementptr i8, ptr %arg.r, i64 544
   %.110 = load double, ptr %.108, align 8
-  %.112 = getelementptr i8, ptr %arg.r, i64 776
+  %.112 = getelementptr i8, ptr %arg.r, i64 784
   %.113 = load i64, ptr %.112, align 8
   %.114 = inttoptr i64 %.113 to ptr
-  %.116 = getelementptr i8, ptr %arg.r, i64 784
+  %.116 = getelementptr i8, ptr %arg.r, i64 792
   %.117 = load i64, ptr %.116, align 8
   %.161 = fcmp ogt double %.102, %arg.ta
   br i1 %.161, label %B248, label %B324
 
 B248:
-  %.187 = getelementptr i8, ptr %arg.r, i64 680
+  %.187 = getelementptr i8, ptr %arg.r, i64 688
   %.188 = load i64, ptr %.187, align 8
   %.189 = inttoptr i64 %.188 to ptr
   %.193 = tail call ptr @watch(ptr nonnull %arg.r, double %.102, ptr %.114, ptr %.189)
@@ -3845,7 +3845,7 @@ B324.endif:
 
 B70.i:
   %.62.i = fsub double %.255, %base.2.0
-  %.64.i = getelementptr i8, ptr %arg.r, i64 760
+  %.64.i = getelementptr i8, ptr %arg.r, i64 768
   %.65.i = load i64, ptr %.64.i, align 8, !noalias !116
   %.66.i = inttoptr i64 %.65.i to ptr
   %.71.i = tail call ptr @classical(ptr nonnull %arg.r, double %base.2.0, ptr %x.2.0, ptr %dx.2.0, double %.62.i, ptr %.66.i), !noalias !116
@@ -3859,10 +3859,10 @@ B324.if.if:
   br label %common.ret
 
 B324.endif.endif:
-  %.80.i = getelementptr i8, ptr %arg.r, i64 760
+  %.80.i = getelementptr i8, ptr %arg.r, i64 768
   %.81.i = load i64, ptr %.80.i, align 8, !noalias !116
   %.82.i = inttoptr i64 %.81.i to ptr
-  %.84.i = getelementptr i8, ptr %arg.r, i64 680
+  %.84.i = getelementptr i8, ptr %arg.r, i64 688
   %.85.i = load i64, ptr %.84.i, align 8, !noalias !116
   %.86.i = inttoptr i64 %.85.i to ptr
   %.89.i = tail call ptr @watch(ptr nonnull %arg.r, double %.255, ptr %.82.i, ptr %.86.i), !noalias !116
@@ -3874,8 +3874,8 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels5brentB3v42B58c8tJTIeFIjxB2IKSgI
 B92.lr.ph:
   %.65 = fsub double %arg.tb, %arg.ta
   %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 144
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 760
-  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 768
+  %sunkaddr5 = getelementptr i8, ptr %arg.r, i64 688
   br label %B92
 
 B92:
@@ -4065,10 +4065,10 @@ B0:
   %.16 = fmul double %.15, 5.000000e-01
   %.18 = fadd double %arg.t0, %.16
   %.9.i = call i32 @_ZN18biped_adrc_kernels6retakeB3v38B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2add(ptr nonnull %.5.i, ptr nonnull poison, ptr %arg.r, double %arg.t0, double %.18) #0
-  %.24 = getelementptr i8, ptr %arg.r, i64 680
+  %.24 = getelementptr i8, ptr %arg.r, i64 688
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
-  %.28 = getelementptr i8, ptr %arg.r, i64 672
+  %.28 = getelementptr i8, ptr %arg.r, i64 680
   %.29 = load i64, ptr %.28, align 8
   %.30 = inttoptr i64 %.29 to ptr
   %.32 = getelementptr i8, ptr %arg.r, i64 136
@@ -4130,7 +4130,7 @@ B502:
   %"$phi502.0.2.0" = phi i64 [ %.348, %B372.endif.endif ], [ %.382, %B468 ]
   %.409 = load i64, ptr %.28, align 8
   %.410 = inttoptr i64 %.409 to ptr
-  %.412 = getelementptr i8, ptr %arg.r, i64 664
+  %.412 = getelementptr i8, ptr %arg.r, i64 672
   %.413 = load i64, ptr %.412, align 8
   %.414 = inttoptr i64 %.413 to ptr
   %.417 = load i64, ptr %.32, align 8
@@ -4160,7 +4160,7 @@ B0.endif.endif.B372_crit_edge:
   br label %B372
 
 B196.lr.ph:
-  %.198 = getelementptr i8, ptr %arg.r, i64 664
+  %.198 = getelementptr i8, ptr %arg.r, i64 672
   %.190 = inttoptr i64 %.298.pre to ptr
   %.199 = load i64, ptr %.198, align 8
   %.200 = inttoptr i64 %.199 to ptr
@@ -4234,11 +4234,11 @@ B0.endif:
   br i1 %.109138.not, label %common.ret, label %B78.preheader
 
 B78.preheader:
-  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 664
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 672
-  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 760
+  %sunkaddr67 = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr68 = getelementptr i8, ptr %arg.r, i64 768
   %sunkaddr69 = getelementptr i8, ptr %arg.r, i64 80
-  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr70 = getelementptr i8, ptr %arg.r, i64 688
   %sunkaddr71 = getelementptr i8, ptr %arg.r, i64 240
   br label %B78
 
@@ -4469,10 +4469,10 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels7overdueB3v45B58c8tJTIeFIjxB2IKS
 B0:
   %.22 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.12 = getelementptr i8, ptr %arg.r, i64 688
+  %.12 = getelementptr i8, ptr %arg.r, i64 696
   %.13 = load i64, ptr %.12, align 8
   %.14 = inttoptr i64 %.13 to ptr
-  %.16 = getelementptr i8, ptr %arg.r, i64 760
+  %.16 = getelementptr i8, ptr %arg.r, i64 768
   %.17 = load i64, ptr %.16, align 8
   %.18 = inttoptr i64 %.17 to ptr
   %.20 = getelementptr i8, ptr %arg.r, i64 80
@@ -4526,7 +4526,7 @@ B0.if.if:
 B0.endif.endif:
   %.50 = load i64, ptr %.16, align 8
   %.51 = inttoptr i64 %.50 to ptr
-  %.53 = getelementptr i8, ptr %arg.r, i64 680
+  %.53 = getelementptr i8, ptr %arg.r, i64 688
   %.54 = load i64, ptr %.53, align 8
   %.55 = inttoptr i64 %.54 to ptr
   %.58 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t0, ptr %.51, ptr %.55)
@@ -4542,11 +4542,11 @@ B166.lr.ph:
   br i1 %.204.not.peel, label %B420.peel, label %B244.peel
 
 B244.peel:
-  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr23 = getelementptr i8, ptr %arg.r, i64 672
   %.184.peel = load i64, ptr %sunkaddr23, align 8
   %.185.peel = inttoptr i64 %.184.peel to ptr
   %.188.peel = load double, ptr %.185.peel, align 8
-  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr24 = getelementptr i8, ptr %arg.r, i64 680
   %.191.peel = load i64, ptr %sunkaddr24, align 8
   %.192.peel = inttoptr i64 %.191.peel to ptr
   %.195.peel = load double, ptr %.192.peel, align 8
@@ -4571,8 +4571,8 @@ B420.peel:
 
 B166.preheader:
   %2 = add i64 %.202, -1
-  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 664
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr9 = getelementptr i8, ptr %arg.r, i64 672
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 680
   br label %B166
 
 B370.endif.loopexit:
@@ -4654,7 +4654,7 @@ B50.lr.ph.new.i:
 B50.lr.ph.new.i.new:
   %4 = add nuw nsw i64 %2, 1
   %unroll_iter = and i64 %4, 4611686018427387902
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 672
   br label %B50.i
 
 B50.i:
@@ -4781,7 +4781,7 @@ B92.loopexit.unr-lcssa.i.unr-lcssa:
 
 B56.i.epil:
   %.1004244.i.epil.init3 = phi i64 [ %.107.73.i.1, %B92.loopexit.unr-lcssa.i.unr-lcssa ], [ 0, %B50.lr.ph.new.i ]
-  %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr91 = getelementptr i8, ptr %arg.r, i64 672
   %.145.i.epil = load i64, ptr %sunkaddr91, align 8, !noalias !143
   %.146.i.epil = inttoptr i64 %.145.i.epil to ptr
   %7 = shl i64 %.1004244.i.epil.init3, 3
@@ -4840,7 +4840,7 @@ B92.loopexit.unr-lcssa.i:
 B50.epil.preheader.i:
   %low.2.046.epil.init.i = phi i1 [ false, %B50.lr.ph.i ], [ %"$phi88.1.2.1.7.i.lcssa", %B92.loopexit.unr-lcssa.i ]
   %.1004244.epil.init.i = phi i64 [ 0, %B50.lr.ph.i ], [ %unroll_iter.i, %B92.loopexit.unr-lcssa.i ]
-  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr120 = getelementptr i8, ptr %arg.r, i64 672
   br label %B50.epil.i
 
 B50.epil.i:
@@ -4879,10 +4879,10 @@ B186:
 
 B190:
   %before.4.0 = phi double [ %.13.i9, %B92.endif ], [ %arg.t0, %B0.endif ], [ %arg.t0, %B62 ], [ %arg.t0, %_ZN18biped_adrc_kernels10begins_lowB3v53B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit ]
-  %.163 = getelementptr i8, ptr %arg.r, i64 704
+  %.163 = getelementptr i8, ptr %arg.r, i64 712
   %.164 = load i64, ptr %.163, align 8
   %.165 = inttoptr i64 %.164 to ptr
-  %.167 = getelementptr i8, ptr %arg.r, i64 672
+  %.167 = getelementptr i8, ptr %arg.r, i64 680
   %.168 = load i64, ptr %.167, align 8
   %.169 = inttoptr i64 %.168 to ptr
   %.172 = tail call ptr @watch(ptr nonnull %arg.r, double %arg.t1, ptr %.165, ptr %.169)
@@ -4903,7 +4903,7 @@ B258:
 B294:
   %.226 = load i64, ptr %.167, align 8
   %.227 = inttoptr i64 %.226 to ptr
-  %.229 = getelementptr i8, ptr %arg.r, i64 664
+  %.229 = getelementptr i8, ptr %arg.r, i64 672
   %.230 = load i64, ptr %.229, align 8
   %.231 = inttoptr i64 %.230 to ptr
   %.233 = getelementptr i8, ptr %arg.r, i64 136
@@ -4998,9 +4998,9 @@ B294.if.if:
 
 B362.endif:
   %.407 = uitofp nneg i64 %.13.i.i to double
-  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr122 = getelementptr i8, ptr %arg.r, i64 688
   %sunkaddr124 = getelementptr i8, ptr %arg.r, i64 136
-  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 664
+  %sunkaddr128 = getelementptr i8, ptr %arg.r, i64 672
   br label %B400
 
 B460.if.if:
@@ -5043,7 +5043,7 @@ define linkonce_odr i32 @_ZN18biped_adrc_kernels7suspectB3v54B58c8tJTIeFIjxB2IKS
 B0.endif:
   %.201 = alloca ptr, align 8
   %excinfo.1 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 664
+  %.17 = getelementptr i8, ptr %arg.r, i64 672
   %.18 = load i64, ptr %.17, align 8
   %.19 = inttoptr i64 %.18 to ptr
   %.21 = load double, ptr %.19, align 8
@@ -5054,9 +5054,9 @@ B0.endif:
   %.arg.count = tail call i64 @llvm.smax.i64(i64 %arg.count, i64 0)
   %.187 = fsub double %arg.t1, %arg.t0
   %.191 = sitofp i64 %arg.count to double
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 672
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 680
-  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 720
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 680
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 688
+  %sunkaddr4 = getelementptr i8, ptr %arg.r, i64 728
   br label %B120
 
 B120:
@@ -5155,8 +5155,8 @@ B46.lr.ph:
 
 B46.lr.ph.new:
   %1 = and i64 %.18, 9223372036854775804
-  %sunkaddr = getelementptr i8, ptr %arg.r, i64 704
-  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 688
+  %sunkaddr = getelementptr i8, ptr %arg.r, i64 712
+  %sunkaddr38 = getelementptr i8, ptr %arg.r, i64 696
   br label %B46
 
 B46:
@@ -5294,8 +5294,8 @@ B300.loopexit.unr-lcssa:
 
 B46.epil.preheader:
   %.1063941.epil.init = phi i64 [ 0, %B46.lr.ph ], [ %1, %B300.loopexit.unr-lcssa ]
-  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 704
-  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 688
+  %sunkaddr40 = getelementptr i8, ptr %arg.r, i64 712
+  %sunkaddr41 = getelementptr i8, ptr %arg.r, i64 696
   br label %B46.epil
 
 B46.epil:
@@ -5363,7 +5363,7 @@ define i32 @_ZN18biped_adrc_kernels5fixedB3v56B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRY
 B0:
   %.224 = alloca i8, align 1
   %excinfo.4 = alloca ptr, align 8
-  %.17 = getelementptr i8, ptr %arg.r, i64 704
+  %.17 = getelementptr i8, ptr %arg.r, i64 712
   %.18 = load i64, ptr %.17, align 8
   %.24 = getelementptr i8, ptr %arg.r, i64 144
   %.25 = load i64, ptr %.24, align 8
@@ -5382,13 +5382,13 @@ B118:
 
 B204:
   %0 = inttoptr i64 %.18 to ptr
-  %.66 = getelementptr i8, ptr %arg.r, i64 792
+  %.66 = getelementptr i8, ptr %arg.r, i64 800
   %.67 = load i64, ptr %.66, align 8
   %.68 = inttoptr i64 %.67 to ptr
-  %.70 = getelementptr i8, ptr %arg.r, i64 848
+  %.70 = getelementptr i8, ptr %arg.r, i64 856
   %.71 = load i64, ptr %.70, align 8
   %.72 = inttoptr i64 %.71 to ptr
-  %.74 = getelementptr i8, ptr %arg.r, i64 800
+  %.74 = getelementptr i8, ptr %arg.r, i64 808
   %.75 = load i64, ptr %.74, align 8
   %.76 = inttoptr i64 %.75 to ptr
   %.79 = tail call ptr @exponential(ptr nonnull %arg.r, i64 0, double %arg.t, double %.48, ptr %.68, ptr %.72, ptr %.76)
@@ -5410,8 +5410,8 @@ B328:
   br label %B454.sink.split
 
 B454.sink.split:
-  %.sink29 = phi i64 [ 776, %B328 ], [ 688, %B0 ]
-  %.sink = phi i64 [ 784, %B328 ], [ 696, %B0 ]
+  %.sink29 = phi i64 [ 784, %B328 ], [ 696, %B0 ]
+  %.sink = phi i64 [ 792, %B328 ], [ 704, %B0 ]
   %.126.sink28 = phi double [ %.126, %B328 ], [ %arg.t, %B0 ]
   %1 = inttoptr i64 %.18 to ptr
   %.128 = getelementptr i8, ptr %arg.r, i64 %.sink29
@@ -5570,10 +5570,10 @@ B574:
   br i1 %or.cond, label %B618, label %B756
 
 B618:
-  %.277 = getelementptr i8, ptr %arg.r, i64 800
+  %.277 = getelementptr i8, ptr %arg.r, i64 808
   %.278 = load i64, ptr %.277, align 8
   %.279 = inttoptr i64 %.278 to ptr
-  %.281 = getelementptr i8, ptr %arg.r, i64 856
+  %.281 = getelementptr i8, ptr %arg.r, i64 864
   %.282 = load i64, ptr %.281, align 8
   %.283 = inttoptr i64 %.282 to ptr
   %.286 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t1, ptr %.279, ptr %.283)
@@ -5712,7 +5712,7 @@ B778:
   br i1 %or.cond27, label %B822, label %B950
 
 B822:
-  %.383 = getelementptr i8, ptr %arg.r, i64 712
+  %.383 = getelementptr i8, ptr %arg.r, i64 720
   %.384 = load i64, ptr %.383, align 8
   %.385 = inttoptr i64 %.384 to ptr
   %.389 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t1, ptr %29, ptr %.385)
@@ -6114,8 +6114,8 @@ B402.preheader:
   %sunkaddr100 = getelementptr i8, ptr %arg.r, i64 400
   %sunkaddr107 = getelementptr i8, ptr %arg.r, i64 64
   %sunkaddr101 = getelementptr i8, ptr %arg.r, i64 208
-  %sunkaddr102 = getelementptr i8, ptr %arg.r, i64 688
-  %sunkaddr103 = getelementptr i8, ptr %arg.r, i64 696
+  %sunkaddr102 = getelementptr i8, ptr %arg.r, i64 696
+  %sunkaddr103 = getelementptr i8, ptr %arg.r, i64 704
   %sunkaddr104 = getelementptr i8, ptr %arg.r, i64 416
   br label %B402
 
@@ -6262,9 +6262,9 @@ for.end.endif:
   br i1 %.20, label %B266, label %B388
 
 B316.endif:
-  %.219 = getelementptr i8, ptr %arg.r, i64 688
+  %.219 = getelementptr i8, ptr %arg.r, i64 696
   %.220 = load i64, ptr %.219, align 8
-  %.223 = getelementptr i8, ptr %arg.r, i64 696
+  %.223 = getelementptr i8, ptr %arg.r, i64 704
   %.224 = load i64, ptr %.223, align 8
   %.17.i = getelementptr i8, ptr %arg.r, i64 400
   %.18.i = load i64, ptr %.17.i, align 8, !noalias !179
@@ -6333,10 +6333,10 @@ B178:
   br i1 %.74, label %B200, label %B314
 
 B200:
-  %.77 = getelementptr i8, ptr %arg.r, i64 688
+  %.77 = getelementptr i8, ptr %arg.r, i64 696
   %.78 = load i64, ptr %.77, align 8
   %.79 = inttoptr i64 %.78 to ptr
-  %.81 = getelementptr i8, ptr %arg.r, i64 696
+  %.81 = getelementptr i8, ptr %arg.r, i64 704
   %.82 = load i64, ptr %.81, align 8
   %.83 = inttoptr i64 %.82 to ptr
   %.87 = tail call ptr @lagging(ptr nonnull %arg.r, double %arg.t, ptr %.79, double %arg.h, ptr %.83)
@@ -6355,10 +6355,10 @@ B314:
   br i1 %.108, label %B336, label %common.ret
 
 B336:
-  %.111 = getelementptr i8, ptr %arg.r, i64 688
+  %.111 = getelementptr i8, ptr %arg.r, i64 696
   %.112 = load i64, ptr %.111, align 8
   %.113 = inttoptr i64 %.112 to ptr
-  %.115 = getelementptr i8, ptr %arg.r, i64 696
+  %.115 = getelementptr i8, ptr %arg.r, i64 704
   %.116 = load i64, ptr %.115, align 8
   %.117 = inttoptr i64 %.116 to ptr
   %.120 = tail call ptr @flow(ptr nonnull %arg.r, double %arg.t, ptr %.113, ptr %.117)
@@ -6371,10 +6371,10 @@ common.ret:
   ret i32 0
 
 B36.endif:
-  %.20 = getelementptr i8, ptr %arg.r, i64 688
+  %.20 = getelementptr i8, ptr %arg.r, i64 696
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
-  %.24 = getelementptr i8, ptr %arg.r, i64 792
+  %.24 = getelementptr i8, ptr %arg.r, i64 800
   %.25 = load i64, ptr %.24, align 8
   %.26 = inttoptr i64 %.25 to ptr
   %.7.i = getelementptr i8, ptr %arg.r, i64 32
@@ -6386,7 +6386,7 @@ B36.endif:
   tail call void %.12.i(ptr %.11.i, ptr %.22, ptr %.26), !noalias !182
   %.56 = load i64, ptr %.24, align 8
   %.57 = inttoptr i64 %.56 to ptr
-  %.59 = getelementptr i8, ptr %arg.r, i64 848
+  %.59 = getelementptr i8, ptr %arg.r, i64 856
   %.60 = load i64, ptr %.59, align 8
   %.61 = inttoptr i64 %.60 to ptr
   %.64 = tail call ptr @remainder(ptr nonnull %arg.r, double %arg.t, ptr %.57, ptr %.61)
@@ -6400,7 +6400,7 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.11 = getelementptr i8, ptr %arg.r, i64 520
   %.13 = load double, ptr %.11, align 8
-  %.19 = getelementptr i8, ptr %arg.r, i64 760
+  %.19 = getelementptr i8, ptr %arg.r, i64 768
   %.20 = load i64, ptr %.19, align 8
   %.23 = getelementptr i8, ptr %arg.r, i64 80
   %.24 = load i64, ptr %.23, align 8
@@ -6525,7 +6525,7 @@ _ZN18biped_adrc_kernels6finiteB3v18B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2f
 
 B100:
   %28 = inttoptr i64 %.20 to ptr
-  %.101 = getelementptr i8, ptr %arg.r, i64 688
+  %.101 = getelementptr i8, ptr %arg.r, i64 696
   %.102 = load i64, ptr %.101, align 8
   %.103 = inttoptr i64 %.102 to ptr
   %.111 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.107, ptr nonnull %excinfo.3, ptr %28, ptr %.103, i64 %.24)
@@ -6551,7 +6551,7 @@ B204:
 B308.thread:
   %.1974 = load i64, ptr %.101, align 8
   %.1985 = inttoptr i64 %.1974 to ptr
-  %.2006 = getelementptr i8, ptr %arg.r, i64 696
+  %.2006 = getelementptr i8, ptr %arg.r, i64 704
   %.2017 = load i64, ptr %.2006, align 8
   %.2028 = inttoptr i64 %.2017 to ptr
   br label %B26.i
@@ -6560,7 +6560,7 @@ B308:
   %.15.i = tail call double @nextafter(double %.13, double 0xFFF0000000000000), !noalias !191
   %.185 = load i64, ptr %.101, align 8
   %.186 = inttoptr i64 %.185 to ptr
-  %.188 = getelementptr i8, ptr %arg.r, i64 696
+  %.188 = getelementptr i8, ptr %arg.r, i64 704
   %.189 = load i64, ptr %.188, align 8
   %.190 = inttoptr i64 %.189 to ptr
   %.192 = tail call ptr @flow(ptr nonnull %arg.r, double %.15.i, ptr %.186, ptr %.190)
@@ -6641,10 +6641,10 @@ B96:
   br i1 %exitcond.not, label %common.ret, label %B96
 
 common.ret:
-  %.224 = getelementptr i8, ptr %arg.r, i64 704
+  %.224 = getelementptr i8, ptr %arg.r, i64 712
   %.225 = load i64, ptr %.224, align 8
   %.226 = inttoptr i64 %.225 to ptr
-  %.228 = getelementptr i8, ptr %arg.r, i64 712
+  %.228 = getelementptr i8, ptr %arg.r, i64 720
   %.229 = load i64, ptr %.228, align 8
   %.230 = inttoptr i64 %.229 to ptr
   %.233 = tail call ptr @node(ptr nonnull %arg.r, double %arg.t1, ptr %.226, ptr %.230)
@@ -6662,8 +6662,8 @@ B60.endif:
 
 B96.lr.ph:
   %.184 = uitofp nneg i64 %.13.i to double
-  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 760
-  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 768
+  %sunkaddr2 = getelementptr i8, ptr %arg.r, i64 768
+  %sunkaddr3 = getelementptr i8, ptr %arg.r, i64 776
   br label %B96
 }
 
@@ -6678,10 +6678,10 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.136 = alloca ptr, align 8
   %excinfo.4 = alloca ptr, align 8
-  %.9 = getelementptr i8, ptr %arg.r, i64 704
+  %.9 = getelementptr i8, ptr %arg.r, i64 712
   %.10 = load i64, ptr %.9, align 8
   %.11 = inttoptr i64 %.10 to ptr
-  %.13 = getelementptr i8, ptr %arg.r, i64 688
+  %.13 = getelementptr i8, ptr %arg.r, i64 696
   %.14 = load i64, ptr %.13, align 8
   %.15 = inttoptr i64 %.14 to ptr
   %.17 = getelementptr i8, ptr %arg.r, i64 96
@@ -6693,10 +6693,10 @@ B0:
   ], !prof !8
 
 B164:
-  %.88 = getelementptr i8, ptr %arg.r, i64 800
+  %.88 = getelementptr i8, ptr %arg.r, i64 808
   %.89 = load i64, ptr %.88, align 8
   %.90 = inttoptr i64 %.89 to ptr
-  %.92 = getelementptr i8, ptr %arg.r, i64 792
+  %.92 = getelementptr i8, ptr %arg.r, i64 800
   %.93 = load i64, ptr %.92, align 8
   %.94 = inttoptr i64 %.93 to ptr
   %.96 = getelementptr i8, ptr %arg.r, i64 80
@@ -6714,10 +6714,10 @@ common.ret:
   ret i32 %common.ret.op
 
 B0.endif:
-  %.47 = getelementptr i8, ptr %arg.r, i64 712
+  %.47 = getelementptr i8, ptr %arg.r, i64 720
   %.48 = load i64, ptr %.47, align 8
   %.49 = inttoptr i64 %.48 to ptr
-  %.51 = getelementptr i8, ptr %arg.r, i64 696
+  %.51 = getelementptr i8, ptr %arg.r, i64 704
   %.52 = load i64, ptr %.51, align 8
   %.53 = inttoptr i64 %.52 to ptr
   %.56 = load i64, ptr %.17, align 8
@@ -6734,10 +6734,10 @@ B0.endif.endif:
   br i1 %.84, label %B164, label %common.ret
 
 B164.endif:
-  %.124 = getelementptr i8, ptr %arg.r, i64 856
+  %.124 = getelementptr i8, ptr %arg.r, i64 864
   %.125 = load i64, ptr %.124, align 8
   %.126 = inttoptr i64 %.125 to ptr
-  %.128 = getelementptr i8, ptr %arg.r, i64 848
+  %.128 = getelementptr i8, ptr %arg.r, i64 856
   %.129 = load i64, ptr %.128, align 8
   %.130 = inttoptr i64 %.129 to ptr
   %.132 = getelementptr i8, ptr %arg.r, i64 120
@@ -6796,10 +6796,10 @@ B86:
   %.10.i = load double, ptr %.8.i, align 8, !noalias !200
   %.12.i = getelementptr i8, ptr %arg.r, i64 376
   store double %.10.i, ptr %.12.i, align 8, !noalias !200
-  %.20.i = getelementptr i8, ptr %arg.r, i64 688
+  %.20.i = getelementptr i8, ptr %arg.r, i64 696
   %.21.i = load i64, ptr %.20.i, align 8, !noalias !200
   %.22.i = inttoptr i64 %.21.i to ptr
-  %.24.i = getelementptr i8, ptr %arg.r, i64 664
+  %.24.i = getelementptr i8, ptr %arg.r, i64 672
   %.25.i = load i64, ptr %.24.i, align 8, !noalias !200
   %.26.i = inttoptr i64 %.25.i to ptr
   %.28.i = tail call ptr @watch(ptr nonnull %arg.r, double %.10.i, ptr %.22.i, ptr %.26.i), !noalias !200
@@ -6928,7 +6928,7 @@ B266.loopexit.unr-lcssa:
 
 B242.epil.preheader:
   %.2114749.epil.init = phi i64 [ 0, %B242.lr.ph ], [ %unroll_iter, %B266.loopexit.unr-lcssa ]
-  %sunkaddr36 = getelementptr i8, ptr %arg.r, i64 696
+  %sunkaddr36 = getelementptr i8, ptr %arg.r, i64 704
   br label %B242.epil
 
 B242.epil:
@@ -6950,9 +6950,9 @@ B266.loopexit:
 
 B266:
   %.258 = phi double [ %.258.pre, %B266.loopexit ], [ %.116, %B200.endif ]
-  %.260 = getelementptr i8, ptr %arg.r, i64 688
+  %.260 = getelementptr i8, ptr %arg.r, i64 696
   %.261 = load i64, ptr %.260, align 8
-  %.264 = getelementptr i8, ptr %arg.r, i64 696
+  %.264 = getelementptr i8, ptr %arg.r, i64 704
   %.265 = load i64, ptr %.264, align 8
   %.17.i = getelementptr i8, ptr %arg.r, i64 400
   %.18.i = load i64, ptr %.17.i, align 8, !noalias !208
@@ -7002,7 +7002,7 @@ B242.lr.ph:
 
 B242.lr.ph.new:
   %unroll_iter = and i64 %.125, 9223372036854775800
-  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 696
+  %sunkaddr35 = getelementptr i8, ptr %arg.r, i64 704
   br label %B242
 }
 
@@ -7520,7 +7520,7 @@ B0:
   %.12 = getelementptr i8, ptr %arg.r, i64 352
   %.14 = load double, ptr %.12, align 8
   %.15 = fadd double %.14, 1.000000e+00
-  %.17 = getelementptr i8, ptr %arg.r, i64 632
+  %.17 = getelementptr i8, ptr %arg.r, i64 640
   %.18 = load i64, ptr %.17, align 8
   %.19 = inttoptr i64 %.18 to ptr
   store double %.10, ptr %.19, align 8
@@ -7528,7 +7528,7 @@ B0:
   %.25 = inttoptr i64 %.24 to ptr
   %.26 = getelementptr i8, ptr %.25, i64 8
   store double %.15, ptr %.26, align 8
-  %.30 = getelementptr i8, ptr %arg.r, i64 688
+  %.30 = getelementptr i8, ptr %arg.r, i64 696
   %.31 = load i64, ptr %.30, align 8
   %.32 = inttoptr i64 %.31 to ptr
   %.35 = load i64, ptr %.17, align 8
@@ -7673,7 +7673,7 @@ B404:
   ], !prof !8
 
 B0.endif:
-  %.68 = getelementptr i8, ptr %arg.r, i64 760
+  %.68 = getelementptr i8, ptr %arg.r, i64 768
   %.69 = load i64, ptr %.68, align 8
   %.70 = inttoptr i64 %.69 to ptr
   store double 0x7FF8000000000000, ptr %.70, align 8
@@ -7756,7 +7756,7 @@ B0:
   %.21 = or disjoint i64 %.20, 1
   %.22 = mul nsw i64 %.16, %.21
   %.23 = getelementptr double, ptr %.13, i64 %.22
-  %.32 = getelementptr i8, ptr %arg.r, i64 688
+  %.32 = getelementptr i8, ptr %arg.r, i64 696
   %.33 = load i64, ptr %.32, align 8
   %.34 = inttoptr i64 %.33 to ptr
   %.36 = getelementptr i8, ptr %.23, i64 8
@@ -7853,10 +7853,10 @@ B88:
 B110:
   %.32 = getelementptr i8, ptr %arg.r, i64 344
   %.34 = load double, ptr %.32, align 8
-  %.36 = getelementptr i8, ptr %arg.r, i64 688
+  %.36 = getelementptr i8, ptr %arg.r, i64 696
   %.37 = load i64, ptr %.36, align 8
   %.38 = inttoptr i64 %.37 to ptr
-  %.40 = getelementptr i8, ptr %arg.r, i64 696
+  %.40 = getelementptr i8, ptr %arg.r, i64 704
   %.41 = load i64, ptr %.40, align 8
   %.42 = inttoptr i64 %.41 to ptr
   %.44 = tail call ptr @node(ptr nonnull %arg.r, double %.34, ptr %.38, ptr %.42)
@@ -8002,7 +8002,7 @@ B0:
 B0.endif:
   %.34 = getelementptr i8, ptr %arg.r, i64 512
   store double 0x7FF0000000000000, ptr %.34, align 8
-  %.38 = getelementptr i8, ptr %arg.r, i64 688
+  %.38 = getelementptr i8, ptr %arg.r, i64 696
   %.39 = load i64, ptr %.38, align 8
   %.40 = inttoptr i64 %.39 to ptr
   %.45 = call i32 @_ZN18biped_adrc_kernels7measureB3v16B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a(ptr nonnull %.41, ptr nonnull %excinfo.2, ptr %arg.r, ptr %.40)
@@ -8021,7 +8021,7 @@ B0.endif.endif:
   %.65 = getelementptr i8, ptr %arg.r, i64 272
   %.66 = load i64, ptr %.65, align 8
   %.67 = inttoptr i64 %.66 to ptr
-  %.68 = getelementptr i8, ptr %arg.r, i64 632
+  %.68 = getelementptr i8, ptr %arg.r, i64 640
   %.69 = load i64, ptr %.68, align 8
   %.70 = inttoptr i64 %.69 to ptr
   %.71 = inttoptr i64 %arg.law to ptr
@@ -8082,10 +8082,10 @@ B66:
 B88:
   %.38 = getelementptr i8, ptr %arg.r, i64 344
   %.40 = load double, ptr %.38, align 8
-  %.42 = getelementptr i8, ptr %arg.r, i64 688
+  %.42 = getelementptr i8, ptr %arg.r, i64 696
   %.43 = load i64, ptr %.42, align 8
   %.44 = inttoptr i64 %.43 to ptr
-  %.46 = getelementptr i8, ptr %arg.r, i64 696
+  %.46 = getelementptr i8, ptr %arg.r, i64 704
   %.47 = load i64, ptr %.46, align 8
   %.48 = inttoptr i64 %.47 to ptr
   %.50 = tail call ptr @node(ptr nonnull %arg.r, double %.40, ptr %.44, ptr %.48)
@@ -8209,7 +8209,7 @@ _ZN18biped_adrc_kernels5looksB3v82B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBr
 }
 
 
-define i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels10move_aloneB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr %arg.r) local_unnamed_addr #0 {
 B0:
   %.9 = getelementptr i8, ptr %arg.r, i64 216
   %.11.pre = load double, ptr %.9, align 8
@@ -8273,10 +8273,10 @@ B326:
   br i1 %.164.not, label %common.ret, label %B348
 
 B348:
-  %.171 = getelementptr i8, ptr %arg.r, i64 688
+  %.171 = getelementptr i8, ptr %arg.r, i64 696
   %.172 = load i64, ptr %.171, align 8
   %.173 = inttoptr i64 %.172 to ptr
-  %.175 = getelementptr i8, ptr %arg.r, i64 696
+  %.175 = getelementptr i8, ptr %arg.r, i64 704
   %.176 = load i64, ptr %.175, align 8
   %.177 = inttoptr i64 %.176 to ptr
   %.179 = tail call ptr @node(ptr nonnull %arg.r, double %.150, ptr %.173, ptr %.177)
@@ -8345,11 +8345,11 @@ B550.endif.endif.endif:
 }
 
 
-define i64 @hop(ptr %.1) local_unnamed_addr #0 {
+define i64 @move_alone(ptr %.1) local_unnamed_addr #0 {
 entry:
   %.3 = alloca i64, align 8
   store i64 0, ptr %.3, align 8
-  %.7 = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
+  %.7 = call i32 @_ZN18biped_adrc_kernels10move_aloneB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3, ptr nonnull poison, ptr %.1) #0
   %.17 = load i64, ptr %.3, align 8
   ret i64 %.17
 }
@@ -8882,7 +8882,7 @@ entry:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.r) local_unnamed_addr #6 {
+define i32 @_ZN18biped_adrc_kernels11put_numbersB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %arg.r) local_unnamed_addr #6 {
 B0:
   %.7.i1 = alloca ptr, align 8
   %.7.i = alloca ptr, align 8
@@ -8909,10 +8909,10 @@ B0:
 }
 
 
-define ptr @number(ptr readonly %.1, i64 %.2, ptr readonly %.3) local_unnamed_addr #6 {
+define ptr @put_numbers(ptr readonly %.1, i64 %.2, ptr readonly %.3) local_unnamed_addr #6 {
 entry:
   %.5 = alloca ptr, align 8
-  %.9 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3) #0
+  %.9 = call i32 @_ZN18biped_adrc_kernels11put_numbersB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3) #0
   %.19 = load ptr, ptr %.5, align 8
   ret ptr %.19
 }
@@ -8932,7 +8932,7 @@ common.ret:
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !259
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
-  %.35 = getelementptr i8, ptr %arg.r, i64 688
+  %.35 = getelementptr i8, ptr %arg.r, i64 696
   %.36 = load i64, ptr %.35, align 8
   %.37 = inttoptr i64 %.36 to ptr
   %.38 = getelementptr i8, ptr %arg.r, i64 80
@@ -8945,7 +8945,7 @@ common.ret:
   %.13.i6 = load i64, ptr %.12.i, align 8, !noalias !262
   %.14.i7 = mul nsw i64 %.13.i6, %.11.i4
   %.15.i8 = getelementptr double, ptr %arg.block, i64 %.14.i7
-  %.66 = getelementptr i8, ptr %arg.r, i64 664
+  %.66 = getelementptr i8, ptr %arg.r, i64 672
   %.67 = load i64, ptr %.66, align 8
   %.68 = inttoptr i64 %.67 to ptr
   %.69 = getelementptr i8, ptr %arg.r, i64 136
@@ -8958,7 +8958,7 @@ common.ret:
   %.13.i15 = load i64, ptr %.12.i, align 8, !noalias !265
   %.14.i16 = mul nsw i64 %.13.i15, %.11.i13
   %.15.i17 = getelementptr double, ptr %arg.block, i64 %.14.i16
-  %.97 = getelementptr i8, ptr %arg.r, i64 696
+  %.97 = getelementptr i8, ptr %arg.r, i64 704
   %.98 = load i64, ptr %.97, align 8
   %.99 = inttoptr i64 %.98 to ptr
   %.100 = getelementptr i8, ptr %arg.r, i64 96
@@ -8971,7 +8971,7 @@ common.ret:
   %.13.i24 = load i64, ptr %.12.i, align 8, !noalias !268
   %.14.i25 = mul nsw i64 %.13.i24, %.11.i22
   %.15.i26 = getelementptr double, ptr %arg.block, i64 %.14.i25
-  %.128 = getelementptr i8, ptr %arg.r, i64 632
+  %.128 = getelementptr i8, ptr %arg.r, i64 640
   %.129 = load i64, ptr %.128, align 8
   %.130 = inttoptr i64 %.129 to ptr
   %.132 = load i64, ptr %.38, align 8
@@ -9143,7 +9143,7 @@ common.ret:
   %.7.i7 = alloca ptr, align 8
   %.7.i3 = alloca ptr, align 8
   %.7.i1 = alloca ptr, align 8
-  %.8 = getelementptr i8, ptr %arg.r, i64 688
+  %.8 = getelementptr i8, ptr %arg.r, i64 696
   %.9 = load i64, ptr %.8, align 8
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !292
@@ -9157,7 +9157,7 @@ common.ret:
   %.38 = getelementptr i8, ptr %arg.r, i64 80
   %.39 = load i64, ptr %.38, align 8
   %.11.i2 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i1, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.10, ptr %.15.i, i64 %.39) #0
-  %.41 = getelementptr i8, ptr %arg.r, i64 664
+  %.41 = getelementptr i8, ptr %arg.r, i64 672
   %.42 = load i64, ptr %.41, align 8
   %.8.i2 = load i64, ptr %.7.i, align 8, !noalias !295
   %.9.i3 = inttoptr i64 %.8.i2 to ptr
@@ -9170,7 +9170,7 @@ common.ret:
   %.69 = getelementptr i8, ptr %arg.r, i64 136
   %.70 = load i64, ptr %.69, align 8
   %.11.i5 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i3, ptr nonnull poison, ptr readonly %arg.s, i64 %arg.lane, ptr readonly %.43, ptr %.15.i8, i64 %.70) #0
-  %.72 = getelementptr i8, ptr %arg.r, i64 696
+  %.72 = getelementptr i8, ptr %arg.r, i64 704
   %.73 = load i64, ptr %.72, align 8
   %.8.i10 = load i64, ptr %.7.i, align 8, !noalias !298
   %.9.i11 = inttoptr i64 %.8.i10 to ptr
@@ -9311,7 +9311,7 @@ B264.preheader:
 
 B300.endif:
   %.224 = inttoptr i64 %.214 to ptr
-  %.225 = getelementptr i8, ptr %.224, i64 624
+  %.225 = getelementptr i8, ptr %.224, i64 632
   %.226 = load i64, ptr %.225, align 8
   %.227 = inttoptr i64 %.226 to ptr
   %.228 = getelementptr i8, ptr %.224, i64 408
@@ -9365,7 +9365,7 @@ entry:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels3aimB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, i64 %arg.j, i64 %arg.count, ptr readonly %arg.t0, ptr readonly %arg.t_next) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels7set_endB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, i64 %arg.j, i64 %arg.count, ptr readonly %arg.t0, ptr readonly %arg.t_next) local_unnamed_addr #0 {
 B0.endif.endif:
   %.359 = alloca [4 x double], align 8
   %excinfo.5 = alloca ptr, align 8
@@ -9511,12 +9511,12 @@ B424.endif:
 }
 
 
-define ptr @aim(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr readonly %.5) local_unnamed_addr #0 {
+define ptr @set_end(ptr readonly %.1, i64 %.2, i64 %.3, ptr readonly %.4, ptr readonly %.5) local_unnamed_addr #0 {
 entry:
   %.7 = alloca ptr, align 8
   store ptr null, ptr %.7, align 8
   %excinfo = alloca ptr, align 8
-  %.11 = call i32 @_ZN18biped_adrc_kernels3aimB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #0
+  %.11 = call i32 @_ZN18biped_adrc_kernels7set_endB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2axx10float64_2a10float64_2a(ptr nonnull %.7, ptr nonnull %excinfo, ptr %.1, i64 %.2, i64 %.3, ptr %.4, ptr %.5) #0
   %cond = icmp eq i32 %.11, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9529,7 +9529,7 @@ common.ret:
   ret ptr %.21
 }
 
-define i32 @_ZN18biped_adrc_kernels6flightB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, ptr readonly %arg.t0, i64 %arg.until, i64 %arg.count) local_unnamed_addr {
+define i32 @_ZN18biped_adrc_kernels10take_stepsB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.s, ptr readonly %arg.t0, i64 %arg.until, i64 %arg.count) local_unnamed_addr {
 B0.endif.endif:
   %.4.i = alloca ptr, align 8
   %.229 = alloca ptr, align 8
@@ -9602,7 +9602,7 @@ B1021:
 B90.endif:
   %.137107118 = phi i64 [ %.144, %B1021 ], [ 1, %B90.endif.preheader ]
   %.144 = add nuw i64 %.137107118, 1
-  %.173 = tail call ptr @aim(ptr nonnull %arg.s, i64 %.137107118, i64 %arg.count, ptr %arg.t0, ptr %.15.i)
+  %.173 = tail call ptr @set_end(ptr nonnull %arg.s, i64 %.137107118, i64 %arg.count, ptr %arg.t0, ptr %.15.i)
   %.176 = load i64, ptr %sunkaddr126, align 8
   %.179 = load i64, ptr %sunkaddr127, align 8
   %.180 = inttoptr i64 %.179 to ptr
@@ -9699,12 +9699,12 @@ B490.endif.endif.endif.endif.endif.endif.endif:
 }
 
 
-define ptr @flight(ptr readonly %.1, ptr readonly %.2, i64 %.3, i64 %.4) local_unnamed_addr #0 {
+define ptr @take_steps(ptr readonly %.1, ptr readonly %.2, i64 %.3, i64 %.4) local_unnamed_addr #0 {
 entry:
   %.6 = alloca ptr, align 8
   store ptr null, ptr %.6, align 8
   %excinfo = alloca ptr, align 8
-  %.10 = call i32 @_ZN18biped_adrc_kernels6flightB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, ptr %.2, i64 %.3, i64 %.4) #0
+  %.10 = call i32 @_ZN18biped_adrc_kernels10take_stepsB4v112B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a10float64_2axx(ptr nonnull %.6, ptr nonnull %excinfo, ptr %.1, ptr %.2, i64 %.3, i64 %.4) #0
   %cond = icmp eq i32 %.10, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !24
 
@@ -9781,7 +9781,7 @@ common.ret:
 B26.endif:
   %.60 = load i64, ptr %.15, align 8
   %.61 = inttoptr i64 %.60 to ptr
-  %.63 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.61, i64 8, i64 1)
+  %.63 = tail call ptr @take_steps(ptr nonnull %arg.s, ptr %.61, i64 8, i64 1)
   %.66 = load i64, ptr %arg.s, align 8
   %.68 = getelementptr i8, ptr %arg.s, i64 272
   %.69 = load i64, ptr %.68, align 8
@@ -9803,7 +9803,7 @@ B404.endif:
   %.13.i.i = select i1 %.12.i.i, double %.23.le.i, double 1.000000e+00
   %.5.i.i = fptosi double %.13.i.i to i64
   %.113 = inttoptr i64 %.112 to ptr
-  %.145 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.113, i64 8, i64 %.5.i.i)
+  %.145 = tail call ptr @take_steps(ptr nonnull %arg.s, ptr %.113, i64 8, i64 %.5.i.i)
   br label %common.ret
 
 B504.endif.endif:
@@ -9816,7 +9816,7 @@ B504.endif.endif:
   %.13.i.i7 = select i1 %.12.i.i6, double %.23.le.i5, double 1.000000e+00
   %.5.i.i8 = fptosi double %.13.i.i7 to i64
   %.153 = inttoptr i64 %.112 to ptr
-  %.185 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.153, i64 7, i64 %.5.i.i8)
+  %.185 = tail call ptr @take_steps(ptr nonnull %arg.s, ptr %.153, i64 7, i64 %.5.i.i8)
   %.189 = load i64, ptr %.97, align 8
   %.190 = inttoptr i64 %.189 to ptr
   %.7.i = getelementptr i8, ptr %arg.s, i64 576
@@ -9855,7 +9855,7 @@ B504.endif.endif.endif.endif.endif.endif:
   %.14.i19 = mul nsw i64 %.13.i18, %.11.i16
   %.15.i20 = getelementptr double, ptr %.277, i64 %.14.i19
   %.272 = inttoptr i64 %.271 to ptr
-  %.304 = tail call ptr @aim(ptr nonnull %arg.s, i64 1, i64 1, ptr %.272, ptr %.15.i20)
+  %.304 = tail call ptr @set_end(ptr nonnull %arg.s, i64 1, i64 1, ptr %.272, ptr %.15.i20)
   %.307 = load i64, ptr %arg.s, align 8
   %.310 = load i64, ptr %.89, align 8
   %.311 = inttoptr i64 %.310 to ptr
@@ -9883,7 +9883,7 @@ B504.endif.endif.endif.endif.endif.endif:
   %.12.i.i36 = fcmp ogt double %.23.le.i35, 1.000000e+00
   %.13.i.i37 = select i1 %.12.i.i36, double %.23.le.i35, double 1.000000e+00
   %.5.i.i38 = fptosi double %.13.i.i37 to i64
-  %.389 = tail call ptr @flight(ptr nonnull %arg.s, ptr %.15.i29, i64 8, i64 %.5.i.i38)
+  %.389 = tail call ptr @take_steps(ptr nonnull %arg.s, ptr %.15.i29, i64 8, i64 %.5.i.i38)
   br label %common.ret
 }
 
@@ -10081,7 +10081,7 @@ B608:
   %.532 = getelementptr i8, ptr %3, i64 408
   store i64 %.530, ptr %.532, align 8
   store i64 0, ptr %.3.i, align 8
-  %.7.i = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr %3) #0
+  %.7.i = call i32 @_ZN18biped_adrc_kernels10move_aloneB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i, ptr nonnull poison, ptr %3) #0
   %.17.i = load i64, ptr %.3.i, align 8
   br label %B732.preheader
 
@@ -10111,7 +10111,7 @@ B864.thread:
   %.678 = getelementptr i64, ptr %arg.walks, i64 %waiting.7.3
   %.679 = load i64, ptr %.678, align 8
   %.680 = inttoptr i64 %.679 to ptr
-  %.9.i8 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr readonly %arg.s, i64 %.306351354, ptr readonly %.680) #0
+  %.9.i8 = call i32 @_ZN18biped_adrc_kernels11put_numbersB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr readonly %arg.s, i64 %.306351354, ptr readonly %.680) #0
   br label %B886
 
 B864:
@@ -10129,7 +10129,7 @@ B886:
 
 B924:
   store i64 0, ptr %.3.i9, align 8
-  %.7.i10 = call i32 @_ZN18biped_adrc_kernels3hopB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i9, ptr nonnull poison, ptr %r.3.5272) #0
+  %.7.i10 = call i32 @_ZN18biped_adrc_kernels10move_aloneB3v83B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a(ptr nonnull %.3.i9, ptr nonnull poison, ptr %r.3.5272) #0
   %.17.i11 = load i64, ptr %.3.i9, align 8
   %.719 = icmp eq i64 %.17.i11, -1
   br i1 %.719, label %B976, label %B1120
@@ -10276,7 +10276,7 @@ B58.lr.ph:
   %scevgep152 = getelementptr i8, ptr %arg.walks, i64 %0
   %scevgep154 = getelementptr i8, ptr %arg.impacts, i64 %0
   %sunkaddr = getelementptr i8, ptr %arg.s, i64 608
-  %sunkaddr157 = getelementptr i8, ptr %arg.s, i64 616
+  %sunkaddr157 = getelementptr i8, ptr %arg.s, i64 624
   %sunkaddr159 = getelementptr i8, ptr %arg.s, i64 328
   %sunkaddr160 = getelementptr i8, ptr %arg.s, i64 336
   %sunkaddr176 = getelementptr i8, ptr %arg.s, i64 584
@@ -10313,7 +10313,7 @@ B148:
   br i1 %.221, label %B224, label %B278
 
 B224:
-  %.9.i1 = call i32 @_ZN18biped_adrc_kernels6numberB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr readonly %2) #0
+  %.9.i1 = call i32 @_ZN18biped_adrc_kernels11put_numbersB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr readonly %2) #0
   %.229 = load i64, ptr %sunkaddr157, align 8
   %.230 = inttoptr i64 %.229 to ptr
   %scevgep149 = getelementptr i8, ptr %.230, i64 %1
@@ -10987,7 +10987,7 @@ B864.endif:
   store double %.711, ptr %scevgep7, align 8
   %scevgep6 = getelementptr i8, ptr %lsr.iv, i64 -8
   store double %.715, ptr %scevgep6, align 8
-  %.722 = getelementptr i8, ptr %.570, i64 688
+  %.722 = getelementptr i8, ptr %.570, i64 696
   %.723 = load i64, ptr %.722, align 8
   %.724 = inttoptr i64 %.723 to ptr
   %.727 = getelementptr i8, ptr %.570, i64 80

@@ -2,9 +2,9 @@
 
 The walks sit in the lanes of two blocks (`record.block_rows`): `now` has the states at a sample instant, `then`
 those on the way to the next one; in continuous time a sample is a step of integration. Generated functions
-(`engine.stretch`) move all of them at once. Where another thing happens to a walk, it is moved by `hop`, as a
-walk alone is, and comes back at its next sample instant: at an impact and right after it, where a push
-switches, at an end of any kind. Of a walk in a lane the run r has the time, and the block alone has the state.
+(`engine.stretch`) move all of them at once. Where another thing happens to a walk, `move_alone` moves it as a
+walk alone is moved, and it comes back at its next sample instant: at an impact and right after it, where a push
+switches, at an end of any kind. While a walk is in a lane, its run r has the time, and the block has its state.
 
 A team s is what the lanes have in common, in a `Run` of its own: K, push and functions are for all lanes. Its
 `tick`, `flow` and `events` are `tick`, `slope` and `step` of `engine.stretch`.
@@ -32,7 +32,7 @@ GOES_ON, MOVED = -1, -2
 
 # -- one walk --------------------------------------------------------------------------------------
 @unit
-def hop(r: Run) -> int:
+def move_alone(r: Run) -> int:
     """Move a run to its next sample instant (GOES_ON), or to its end as `stride` does, whose code it
     returns."""
     while True:
@@ -81,19 +81,19 @@ def is_plain(r: Run) -> int:
     steps in their usual numbers; else 0.
     """
     # an arc begins with `arm`
-    t, part, usual = r.t, r.part, r.armed == 1 and r.t > r.t_arc
-    if r.period == 0.0:  # the last step before a break is for `hop`
+    t, part, plain = r.t, r.part, r.armed == 1 and r.t > r.t_arc
+    if r.period == 0.0:  # the last step before a break is for `move_alone`
         r.t_end = r.last
-        return int(usual and 0 < r.done < steps(r, r.t_from, next_break(r)) - 1)
+        return int(plain and 0 < r.done < steps(r, r.t_from, next_break(r)) - 1)
     t1 = tick_time(r)
-    usual = usual and at_tick(t, clock_start(r), r.period)
-    usual = usual and t1 <= r.last and next_switch(r, t, t1) == t1
+    plain = plain and at_tick(t, clock_start(r), r.period)
+    plain = plain and t1 <= r.last and next_switch(r, t, t1) == t1
     if part == 0.0:
-        return int(usual and steps(r, t, t1) == steps(r, 0.0, r.period))
+        return int(plain and steps(r, t, t1) == steps(r, 0.0, r.period))
     # steps between these floats, and between the walker's numbers
     half = release_time(r)
-    usual = usual and half < t1 and steps(r, half, t1) == steps(r, part, r.period)
-    return int(usual and steps(r, t, half) == steps(r, 0.0, part))
+    plain = plain and half < t1 and steps(r, half, t1) == steps(r, part, r.period)
+    return int(plain and steps(r, t, half) == steps(r, 0.0, part))
 
 
 # -- into and out of a lane ------------------------------------------------------------------------
@@ -118,7 +118,7 @@ def get(s: Run, lane: int, x: Array, out: Array, size: int) -> None:
 
 
 @unit
-def number(s: Run, lane: int, r: Run) -> None:
+def put_numbers(s: Run, lane: int, r: Run) -> None:
     """Put the numbers of a walk and of its disturbance into a lane."""
     put(s, lane, r.K, s.K, r.n_K)
     put(s, lane, r.push, s.push, r.n_push)
@@ -178,7 +178,7 @@ def store_nodes(s: Run, load_of: int) -> None:
 
 
 @unit
-def aim(s: Run, j: int, count: int, t0: Array, t_next: Array) -> None:
+def set_end(s: Run, j: int, count: int, t0: Array, t_next: Array) -> None:
     """Write the end of the j-th of `count` steps from t0 to t_next (lanes,) [s], and what depends on it."""
     block, w = s.then, part_of(s, s.then, WEIGHTS)
     for lane in range(s.lanes):
@@ -192,13 +192,13 @@ def aim(s: Run, j: int, count: int, t0: Array, t_next: Array) -> None:
 
 
 @unit
-def flight(s: Run, t0: Array, until: int, count: int) -> None:
+def take_steps(s: Run, t0: Array, until: int, count: int) -> None:
     """Take `count` steps in the block `then`, from t0 (lanes,), where the slope is known, to the times in its
     part `until`.
     """
     t_next = part_of(s, s.then, until)
     for j in range(1, count + 1):
-        aim(s, j, count, t0, t_next)
+        set_end(s, j, count, t0, t_next)
         call(s.events, s.K, s.then, s.then)
         copy(part_of(s, s.then, T1), s.then, s.lanes)
         if j < count:
@@ -219,22 +219,22 @@ def sample_all(s: Run) -> None:
     """Move all walks by one sample, from the block `now` to the block `then`."""
     if s.period == 0.0:
         copy(s.now, s.then, s.at[END] * s.lanes)
-        flight(s, s.now, NEXT, 1)
+        take_steps(s, s.now, NEXT, 1)
         call(s.flow, s.K, s.then, s.then)
         return
     call(s.tick, s.K, s.now, s.then)
     store_nodes(s, LOAD)
     if s.part == 0.0:
-        flight(s, s.now, NEXT, steps(s, 0.0, s.period))
+        take_steps(s, s.now, NEXT, steps(s, 0.0, s.period))
     else:
-        flight(s, s.now, BREAK, steps(s, 0.0, s.part))
+        take_steps(s, s.now, BREAK, steps(s, 0.0, s.part))
         # the waiting torque acts, as in `operations.due`
         end = shift(part_of(s, s.then, X), (s.nx - s.p) * s.lanes)
         copy(shift(end, -s.p * s.lanes), end, s.p * s.lanes)
-        aim(s, 1, 1, s.now, part_of(s, s.then, NEXT))
+        set_end(s, 1, 1, s.now, part_of(s, s.then, NEXT))
         call(s.flow, s.K, s.then, s.then)
         store_nodes(s, STAGE_LOAD)
-        flight(s, part_of(s, s.then, BREAK), NEXT, steps(s, s.part, s.period))
+        take_steps(s, part_of(s, s.then, BREAK), NEXT, steps(s, s.part, s.period))
 
 
 @unit
@@ -261,15 +261,15 @@ def side_by_side(s: Run, walks: Ints, count: int, codes: Ints) -> int:
                 else:
                     leave(s, lane, r, s.now)
                     r.count = r.kept
-                    code = hop(r)
+                    code = move_alone(r)
             # others take the place of a walk that is over, and each goes by itself until a lane serves it
             while i >= 0 or waiting < count:
                 if i < 0:
                     i, waiting, busy, code = waiting, waiting + 1, busy + 1, GOES_ON
                     r = run_at(walks[i])
-                    number(s, lane, r)
+                    put_numbers(s, lane, r)
                 while code == GOES_ON and is_plain(r) == 0:
-                    code = hop(r)
+                    code = move_alone(r)
                 if code == GOES_ON:
                     enter(s, lane, r, s.then)
                     break
@@ -293,11 +293,11 @@ def move_beside(s: Run, walks: Ints, first: int, impacts: Ints) -> None:
     for lane in range(s.lanes):
         i = first + lane
         s.team[lane] = 0
-        if s.seats[lane] != 0 and impacts[i] == 0:
+        if s.ready[lane] != 0 and impacts[i] == 0:
             r = run_at(walks[i])
-            if s.seats[lane] == 1:
-                number(s, lane, r)
-                s.seats[lane] = 2
+            if s.ready[lane] == 1:
+                put_numbers(s, lane, r)
+                s.ready[lane] = 2
             put(s, lane, r.torque, s.torque, r.p)
             put(s, lane, r.force, s.force, 2)
             if is_plain(r) == 1:
@@ -339,7 +339,7 @@ def samples(
     made, -1 for a walk that is not moved.
 
     teams: how many lanes each has, 0 for none, then the addresses of teams, in whose lanes the walks sit one
-    after the other; `seats` of a team are 1 for a walk that may go side by side, and 2 once the team has its
+    after the other; `ready` of a team is 1 for a walk that may go side by side, and 2 once the team has its
     numbers.
     """
     over = 0

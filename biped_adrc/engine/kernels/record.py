@@ -227,7 +227,10 @@ class Run:
     team: Ints
     """Addresses of their runs (lanes,), 0 for none."""
     seats: Ints
-    """Which walk sits in each lane (lanes,), -1 for none; for samples under inputs see `lanes.samples`."""
+    """Which walk sits in each lane (lanes,), -1 for none."""
+    ready: Ints
+    """Of samples under inputs from outside, for each lane: 1 where its walk may go side by side, 2 once K and
+    push have its numbers, else 0."""
     # -- of each run
     nodes: Array
     """Rows (t, x, x'); with `look` (t, step, force from outside (2,), output of `look`) at each integration
