@@ -187,18 +187,16 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
                 future.cancel()
 
 
-def walks_of(
-    runs: Sequence[Callable[[], BatchWalk]], least: int = SIDE_BY_SIDE
-) -> Callable[[], list[BatchWalk]]:
+def walks_of(runs: Sequence[Callable[[], BatchWalk]]) -> Callable[[], list[BatchWalk]]:
     """The function that makes the walks of what `Preparation` returned; it may run in any thread.
 
-    Walks of one structure go side by side, if there are at least so many of them.
+    Walks of one structure go side by side, if there are at least SIDE_BY_SIDE of them.
     """
     alike = dict[Hashable, dict[int, Ready]]()
     for i, run in enumerate(runs):
         if isinstance(run, Ready) and run.key is not None:
             alike.setdefault(run.key, {})[i] = run
-    teams = [team for team in alike.values() if len(team) >= least]
+    teams = [team for team in alike.values() if len(team) >= SIDE_BY_SIDE]
     # compiled here, in the caller's thread
     firsts = [next(iter(team.values())) for team in teams]
     codes = [Lanes.of(first.compiled, bool(first.read)) for first in firsts]
@@ -389,12 +387,10 @@ class _Going:
         run, nx = self.run, self.run.nx
         strikes = self.parts[0] if len(self.parts) == 1 else np.vstack(self.parts)
         times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
-        table = (
-            (np.vstack(self.rows) if len(self.rows) > 1 else self.rows[0]) if self.read else None
-        )
-        return BatchWalk(
-            self.status, "", times, before, after, run["t"], COMPILED, self.start, table
-        )
+        table, end = None, run["t"]
+        if self.read:
+            table = self.rows[0] if len(self.rows) == 1 else np.vstack(self.rows)
+        return BatchWalk(self.status, "", times, before, after, end, COMPILED, self.start, table)
 
 
 def _side_by_side(lanes: Lanes, walks: Sequence[_Going]) -> list[BatchWalk]:

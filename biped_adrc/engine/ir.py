@@ -268,10 +268,8 @@ class Listing:
             elif code == ca.OP_OUTPUT:
                 out[of[1]] = names[of[0]]
             else:
-                operands, values = (
-                    dict(zip("abc", (names[k] for k in of), strict=False)),
-                    list[str](),
-                )
+                values = list[str]()
+                operands = dict(zip("abc", (names[k] for k in of), strict=False))
                 for text in _PATTERNS[code].splitlines():
                     values.append(self.new(text.format(*values, **operands)))
                 name = values[-1]

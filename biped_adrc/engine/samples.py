@@ -11,7 +11,7 @@ A sample goes from one sample instant to the next; where an impact restarts the 
 the flow between two events, a node a stored instant (t, x, x') of it. A `Reading` is a function that reads
 arrays, such as signals, off a closed loop at one instant.
 
-A `CompiledWalk` is a walk in machine code, and the compiled function `samples` (`engine.kernels.arc`), called
+A `CompiledWalk` is a walk in machine code, and the compiled function `samples` (`engine.kernels.lanes`), called
 the kernel, moves many of them in one call. A `PythonWalk` is moved by `hybrid.simulator.flow_arc`, which
 integrates one arc: a controller in Python on the compiled plant, or a plant of its own.
 """

@@ -118,13 +118,13 @@ class RobotAndGait:
             from biped_adrc.analysis.stability import cycle_start
 
             return cycle_start(self.biped, self.slope(s))
-        (q, v), x, speed = (y.copy() for y in self.on_orbit), s.start, s.start.speed
+        (q, v), x, factor = (y.copy() for y in self.on_orbit), s.start, 1.0 + s.start.speed
         if x.spread or x.rate_spread or x.speed_spread:
             random = np.random.default_rng(drawn(s, "start"))
             q += x.spread * random.standard_normal(len(q))
             v += x.rate_spread * random.standard_normal(len(v))
-            speed += x.speed_spread * random.standard_normal()
-        v *= 1.0 + speed
+            factor += x.speed_spread * random.standard_normal()
+        v *= factor
         for name, added in x.own.items():
             place = int(name[1:]) - 1  # "q5" or "v5" is entry 4
             if not 0 <= place < len(q):

@@ -6,10 +6,10 @@ An arc is the flow between two impacts. Codes are those of `hybrid.constants`: a
 COMPLETED, or STRUCK for an arc that ended at a touchdown.
 
 `stride` runs one walk over arcs and impacts until it has made as many impacts as asked for, its time is over,
-or it ends in another way. `samples` moves each of many walks from its sample instant to the next one, with
-torques and forces that the caller may choose anew each time; impacts in between are made on the way. A clock
-that restarts at impacts has a sample instant at the impact, and the sample ends there. A walk made by `stride`
-and one made by `samples` are equal in all numbers. The page calls the two parts of both: `go_on` for an arc,
+or it ends in another way. `sample` moves a walk from its sample instant to the next one, with a torque and a
+force that the caller may choose anew each time; impacts in between are made on the way. A clock that restarts
+at impacts has a sample instant at the impact, and the sample ends there. A walk made by `stride` and one made
+by `sample` are equal in all numbers. The page calls the two parts of both: `go_on` for an arc,
 `land` for an impact.
 """
 

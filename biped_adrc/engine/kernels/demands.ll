@@ -1,4 +1,4 @@
-; sources 4ea9fa9ca5c267192fda363ffc19b324, text 205fa0802ac65115998e935cb777fcc0
+; sources 6d55c499d48507fd8dc19962c7290ab5, text 205fa0802ac65115998e935cb777fcc0
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null

@@ -1,4 +1,4 @@
-; sources 4dab8ff2cf73f3fbcc8af81060bf263b, text 12dea6c19b4e8a8749f04ec251a81195
+; sources 075044a6b57faee3451bea655de1e0f8, text 4e97cac70aa8d6b09e9a9e6d544f1b9b
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels7load_ofB2v1B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2a = weak local_unnamed_addr global ptr null
@@ -1048,7 +1048,7 @@ B0:
   %excinfo.3 = alloca ptr, align 8
   %.17 = getelementptr i8, ptr %arg.r, i64 80
   %.18 = load i64, ptr %.17, align 8
-  %.20 = getelementptr i8, ptr %arg.r, i64 632
+  %.20 = getelementptr i8, ptr %arg.r, i64 560
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
   %.24 = getelementptr i8, ptr %arg.r, i64 408
@@ -8655,7 +8655,7 @@ B36.lr.ph:
 
 B36.lr.ph.new:
   %1 = and i64 %arg.size, 9223372036854775800
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 560
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 568
   br label %B36
 
 B36:
@@ -8728,7 +8728,7 @@ B84.loopexit.unr-lcssa:
 
 B36.epil.preheader:
   %.1044042.epil.init = phi i64 [ 0, %B36.lr.ph ], [ %11, %B84.loopexit.unr-lcssa ]
-  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 560
+  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 568
   br label %B36.epil
 
 B36.epil:
@@ -8775,7 +8775,7 @@ B36.lr.ph:
 
 B36.lr.ph.new:
   %1 = and i64 %arg.size, 9223372036854775800
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 560
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 568
   br label %B36
 
 B36:
@@ -8848,7 +8848,7 @@ B84.loopexit.unr-lcssa:
 
 B36.epil.preheader:
   %.1044042.epil.init = phi i64 [ 0, %B36.lr.ph ], [ %11, %B84.loopexit.unr-lcssa ]
-  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 560
+  %sunkaddr19 = getelementptr i8, ptr %arg.s, i64 568
   br label %B36.epil
 
 B36.epil:
@@ -8924,11 +8924,11 @@ common.ret:
   %.7.i7 = alloca ptr, align 8
   %.7.i3 = alloca ptr, align 8
   %.7.i1 = alloca ptr, align 8
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !259
   %.9.i = inttoptr i64 %.8.i to ptr
   %.11.i = load i64, ptr %.9.i, align 8, !noalias !259
-  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.12.i = getelementptr i8, ptr %arg.s, i64 568
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !259
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
@@ -9088,12 +9088,12 @@ B108.i.i20:
 
 common.ret:
   %"$phi182.0.2.0" = phi double [ %"$phi106.0.2.0", %B106 ], [ %.63.i.i18, %B150 ], [ %.77.i.i25, %B108.i.i20 ]
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i28 = load i64, ptr %.7.i, align 8, !noalias !283
   %.9.i = inttoptr i64 %.8.i28 to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 56
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !283
-  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.12.i = getelementptr i8, ptr %arg.s, i64 568
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !283
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
@@ -9145,11 +9145,11 @@ common.ret:
   %.7.i1 = alloca ptr, align 8
   %.8 = getelementptr i8, ptr %arg.r, i64 696
   %.9 = load i64, ptr %.8, align 8
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !292
   %.9.i = inttoptr i64 %.8.i to ptr
   %.11.i = load i64, ptr %.9.i, align 8, !noalias !292
-  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.12.i = getelementptr i8, ptr %arg.s, i64 568
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !292
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %arg.block, i64 %.14.i
@@ -9276,22 +9276,22 @@ B28.endif.endif:
   %.19 = getelementptr i8, ptr %arg.s, i64 272
   %.20 = load i64, ptr %.19, align 8
   %.21 = inttoptr i64 %.20 to ptr
-  %.23 = getelementptr i8, ptr %arg.s, i64 592
+  %.23 = getelementptr i8, ptr %arg.s, i64 600
   %.24 = load i64, ptr %.23, align 8
   %.25 = inttoptr i64 %.24 to ptr
-  %.27 = getelementptr i8, ptr %arg.s, i64 600
+  %.27 = getelementptr i8, ptr %arg.s, i64 608
   %.28 = load i64, ptr %.27, align 8
   %.29 = inttoptr i64 %.28 to ptr
   %.30 = inttoptr i64 %.12 to ptr
   tail call void %.30(ptr %.21, ptr %.25, ptr %.29)
   %.35 = load i64, ptr %.23, align 8
   %.36 = inttoptr i64 %.35 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !310
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i64, ptr %.9.i, i64 %arg.load_of
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !310
-  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.12.i = getelementptr i8, ptr %arg.s, i64 568
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !310
   %.14.i = mul i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.36, i64 %.14.i
@@ -9306,12 +9306,12 @@ B28.endif.endif:
   br i1 %.16754.not, label %common.ret, label %B264.preheader
 
 B264.preheader:
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 608
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 616
   br label %B264
 
 B300.endif:
   %.224 = inttoptr i64 %.214 to ptr
-  %.225 = getelementptr i8, ptr %.224, i64 632
+  %.225 = getelementptr i8, ptr %.224, i64 560
   %.226 = load i64, ptr %.225, align 8
   %.227 = inttoptr i64 %.226 to ptr
   %.228 = getelementptr i8, ptr %.224, i64 408
@@ -9369,15 +9369,15 @@ define i32 @_ZN18biped_adrc_kernels7set_endB4v108B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4
 B0.endif.endif:
   %.359 = alloca [4 x double], align 8
   %excinfo.5 = alloca ptr, align 8
-  %.20 = getelementptr i8, ptr %arg.s, i64 592
+  %.20 = getelementptr i8, ptr %arg.s, i64 600
   %.21 = load i64, ptr %.20, align 8
   %.22 = inttoptr i64 %.21 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !313
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 96
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !313
-  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.12.i = getelementptr i8, ptr %arg.s, i64 568
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !313
   %.14.i = mul i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.22, i64 %.14.i
@@ -9447,7 +9447,7 @@ B116.lr.ph:
   %sunkaddr42 = getelementptr i8, ptr %arg.s, i64 216
   %sunkaddr45 = getelementptr i8, ptr %arg.s, i64 160
   %sunkaddr = getelementptr i8, ptr %arg.s, i64 248
-  %sunkaddr39 = getelementptr i8, ptr %arg.s, i64 608
+  %sunkaddr39 = getelementptr i8, ptr %arg.s, i64 616
   %sunkaddr46 = getelementptr inbounds nuw i8, ptr %.359, i64 24
   %sunkaddr47 = getelementptr inbounds nuw i8, ptr %.359, i64 16
   %sunkaddr48 = getelementptr inbounds nuw i8, ptr %.359, i64 8
@@ -9540,15 +9540,15 @@ B0.endif.endif:
   %excinfo.8 = alloca ptr, align 8
   %.521 = alloca ptr, align 8
   %excinfo.11 = alloca ptr, align 8
-  %.16 = getelementptr i8, ptr %arg.s, i64 592
+  %.16 = getelementptr i8, ptr %arg.s, i64 600
   %.17 = load i64, ptr %.16, align 8
   %.18 = inttoptr i64 %.17 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !325
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i64, ptr %.9.i, i64 %arg.until
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !325
-  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.12.i = getelementptr i8, ptr %arg.s, i64 568
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !325
   %.14.i = mul nsw i64 %.13.i, %.11.i
   %.15.i = getelementptr double, ptr %.18, i64 %.14.i
@@ -9561,7 +9561,7 @@ B90.endif.preheader:
   %sunkaddr124 = getelementptr i8, ptr %arg.s, i64 64
   %sunkaddr125 = getelementptr i8, ptr %arg.s, i64 208
   %sunkaddr134 = getelementptr i8, ptr %arg.s, i64 72
-  %sunkaddr138 = getelementptr i8, ptr %arg.s, i64 568
+  %sunkaddr138 = getelementptr i8, ptr %arg.s, i64 576
   %sunkaddr139 = getelementptr i8, ptr %arg.s, i64 312
   br label %B90.endif
 
@@ -9731,18 +9731,18 @@ B0:
   br i1 %.11, label %B26, label %B264
 
 B26:
-  %.15 = getelementptr i8, ptr %arg.s, i64 584
+  %.15 = getelementptr i8, ptr %arg.s, i64 592
   %.16 = load i64, ptr %.15, align 8
   %.17 = inttoptr i64 %.16 to ptr
-  %.19 = getelementptr i8, ptr %arg.s, i64 592
+  %.19 = getelementptr i8, ptr %arg.s, i64 600
   %.20 = load i64, ptr %.19, align 8
   %.21 = inttoptr i64 %.20 to ptr
-  %.23 = getelementptr i8, ptr %arg.s, i64 576
+  %.23 = getelementptr i8, ptr %arg.s, i64 584
   %.24 = load i64, ptr %.23, align 8
   %.25 = inttoptr i64 %.24 to ptr
   %.26 = getelementptr i8, ptr %.25, i64 120
   %.27 = load i64, ptr %.26, align 8
-  %.29 = getelementptr i8, ptr %arg.s, i64 560
+  %.29 = getelementptr i8, ptr %arg.s, i64 568
   %.30 = load i64, ptr %.29, align 8
   %.31 = mul nsw i64 %.30, %.27
   %.36 = call i32 @_ZN18biped_adrc_kernels4copyB2v4B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a10float64_2ax(ptr nonnull %.32, ptr nonnull %excinfo.1, ptr %.17, ptr %.21, i64 %.31)
@@ -9757,10 +9757,10 @@ B264:
   %.89 = getelementptr i8, ptr %arg.s, i64 272
   %.90 = load i64, ptr %.89, align 8
   %.91 = inttoptr i64 %.90 to ptr
-  %.93 = getelementptr i8, ptr %arg.s, i64 584
+  %.93 = getelementptr i8, ptr %arg.s, i64 592
   %.94 = load i64, ptr %.93, align 8
   %.95 = inttoptr i64 %.94 to ptr
-  %.97 = getelementptr i8, ptr %arg.s, i64 592
+  %.97 = getelementptr i8, ptr %arg.s, i64 600
   %.98 = load i64, ptr %.97, align 8
   %.99 = inttoptr i64 %.98 to ptr
   %.100 = inttoptr i64 %.87 to ptr
@@ -9819,11 +9819,11 @@ B504.endif.endif:
   %.185 = tail call ptr @take_steps(ptr nonnull %arg.s, ptr %.153, i64 7, i64 %.5.i.i8)
   %.189 = load i64, ptr %.97, align 8
   %.190 = inttoptr i64 %.189 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i9 = load i64, ptr %.7.i, align 8, !noalias !352
   %.9.i = inttoptr i64 %.8.i9 to ptr
   %.11.i = load i64, ptr %.9.i, align 8, !noalias !352
-  %.12.i = getelementptr i8, ptr %arg.s, i64 560
+  %.12.i = getelementptr i8, ptr %arg.s, i64 568
   %.13.i = load i64, ptr %.12.i, align 8, !noalias !352
   %.14.i10 = mul nsw i64 %.13.i, %.11.i
   %.15.i11 = getelementptr double, ptr %.190, i64 %.14.i10
@@ -9916,7 +9916,7 @@ B0.endif:
   %.6.i5 = alloca ptr, align 8
   %.6.i2 = alloca ptr, align 8
   %.6.i = alloca ptr, align 8
-  %.44 = getelementptr i8, ptr %arg.s, i64 560
+  %.44 = getelementptr i8, ptr %arg.s, i64 568
   %.45 = load i64, ptr %.44, align 8
   %.127345.not = icmp slt i64 %.45, 1
   br i1 %.127345.not, label %B106.endif.preheader, label %B58.lr.ph
@@ -9928,8 +9928,8 @@ B58.lr.ph:
 
 B58.lr.ph.new:
   %unroll_iter = and i64 %.45, 9223372036854775800
-  %sunkaddr109 = getelementptr i8, ptr %arg.s, i64 616
-  %sunkaddr110 = getelementptr i8, ptr %arg.s, i64 608
+  %sunkaddr109 = getelementptr i8, ptr %arg.s, i64 624
+  %sunkaddr110 = getelementptr i8, ptr %arg.s, i64 616
   br label %B58
 
 B106.endif.preheader.loopexit.unr-lcssa:
@@ -9938,8 +9938,8 @@ B106.endif.preheader.loopexit.unr-lcssa:
 
 B58.epil.preheader:
   %.133344346.epil.init = phi i64 [ 0, %B58.lr.ph ], [ %unroll_iter, %B106.endif.preheader.loopexit.unr-lcssa ]
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 616
-  %sunkaddr108 = getelementptr i8, ptr %arg.s, i64 608
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 624
+  %sunkaddr108 = getelementptr i8, ptr %arg.s, i64 616
   br label %B58.epil
 
 B58.epil:
@@ -9960,11 +9960,11 @@ B58.epil:
   br i1 %epil.iter.cmp.not, label %B106.endif.preheader, label %B58.epil, !llvm.loop !364
 
 B106.endif.preheader:
-  %sunkaddr111 = getelementptr i8, ptr %arg.s, i64 616
-  %sunkaddr119 = getelementptr i8, ptr %arg.s, i64 592
-  %sunkaddr120 = getelementptr i8, ptr %arg.s, i64 576
-  %sunkaddr112 = getelementptr i8, ptr %arg.s, i64 584
-  %sunkaddr115 = getelementptr i8, ptr %arg.s, i64 608
+  %sunkaddr111 = getelementptr i8, ptr %arg.s, i64 624
+  %sunkaddr119 = getelementptr i8, ptr %arg.s, i64 600
+  %sunkaddr120 = getelementptr i8, ptr %arg.s, i64 584
+  %sunkaddr112 = getelementptr i8, ptr %arg.s, i64 592
+  %sunkaddr115 = getelementptr i8, ptr %arg.s, i64 616
   br label %B106.endif
 
 B58:
@@ -10266,75 +10266,75 @@ B0.endif:
   %.6.i = alloca ptr, align 8
   %.7.i2 = alloca ptr, align 8
   %.5.i = alloca ptr, align 8
-  %.35 = getelementptr i8, ptr %arg.s, i64 560
+  %.35 = getelementptr i8, ptr %arg.s, i64 568
   %.36 = load i64, ptr %.35, align 8
-  %.119218.not = icmp slt i64 %.36, 1
-  br i1 %.119218.not, label %common.ret, label %B58.lr.ph
+  %.119213.not = icmp slt i64 %.36, 1
+  br i1 %.119213.not, label %common.ret, label %B58.lr.ph
 
 B58.lr.ph:
   %0 = shl i64 %arg.first, 3
-  %scevgep152 = getelementptr i8, ptr %arg.walks, i64 %0
-  %scevgep154 = getelementptr i8, ptr %arg.impacts, i64 %0
-  %sunkaddr = getelementptr i8, ptr %arg.s, i64 608
-  %sunkaddr157 = getelementptr i8, ptr %arg.s, i64 624
-  %sunkaddr159 = getelementptr i8, ptr %arg.s, i64 328
-  %sunkaddr160 = getelementptr i8, ptr %arg.s, i64 336
-  %sunkaddr176 = getelementptr i8, ptr %arg.s, i64 584
+  %scevgep141 = getelementptr i8, ptr %arg.walks, i64 %0
+  %scevgep143 = getelementptr i8, ptr %arg.impacts, i64 %0
+  %sunkaddr = getelementptr i8, ptr %arg.s, i64 616
+  %sunkaddr146 = getelementptr i8, ptr %arg.s, i64 632
+  %sunkaddr148 = getelementptr i8, ptr %arg.s, i64 328
+  %sunkaddr149 = getelementptr i8, ptr %arg.s, i64 336
+  %sunkaddr165 = getelementptr i8, ptr %arg.s, i64 592
   br label %B58
 
 B58:
-  %pushed.2.0222 = phi i64 [ 0, %B58.lr.ph ], [ %pushed.3.1, %B574 ]
-  %some.2.0221 = phi i64 [ 0, %B58.lr.ph ], [ %some.3.1, %B574 ]
-  %.125217219 = phi i64 [ 0, %B58.lr.ph ], [ %.132, %B574 ]
-  %.132 = add nuw nsw i64 %.125217219, 1
+  %pushed.2.0217 = phi i64 [ 0, %B58.lr.ph ], [ %pushed.3.1, %B574 ]
+  %some.2.0216 = phi i64 [ 0, %B58.lr.ph ], [ %some.3.1, %B574 ]
+  %.125212214 = phi i64 [ 0, %B58.lr.ph ], [ %.132, %B574 ]
+  %.132 = add nuw nsw i64 %.125212214, 1
   %.176 = load i64, ptr %sunkaddr, align 8
   %.177 = inttoptr i64 %.176 to ptr
-  %1 = shl i64 %.125217219, 3
-  %scevgep151 = getelementptr i8, ptr %.177, i64 %1
-  store i64 0, ptr %scevgep151, align 8
-  %.183 = load i64, ptr %sunkaddr157, align 8
+  %1 = shl i64 %.125212214, 3
+  %scevgep140 = getelementptr i8, ptr %.177, i64 %1
+  store i64 0, ptr %scevgep140, align 8
+  %.183 = load i64, ptr %sunkaddr146, align 8
   %.184 = inttoptr i64 %.183 to ptr
-  %scevgep150 = getelementptr i8, ptr %.184, i64 %1
-  %.187 = load i64, ptr %scevgep150, align 8
+  %scevgep139 = getelementptr i8, ptr %.184, i64 %1
+  %.187 = load i64, ptr %scevgep139, align 8
   %.188.not = icmp eq i64 %.187, 0
   br i1 %.188.not, label %B574, label %B124
 
 B124:
-  %scevgep155 = getelementptr i8, ptr %scevgep154, i64 %1
-  %.199 = load i64, ptr %scevgep155, align 8
+  %scevgep144 = getelementptr i8, ptr %scevgep143, i64 %1
+  %.199 = load i64, ptr %scevgep144, align 8
   %.200 = icmp eq i64 %.199, 0
   br i1 %.200, label %B148, label %B574
 
 B148:
-  %scevgep153 = getelementptr i8, ptr %scevgep152, i64 %1
-  %.209 = load i64, ptr %scevgep153, align 8
+  %scevgep142 = getelementptr i8, ptr %scevgep141, i64 %1
+  %.209 = load i64, ptr %scevgep142, align 8
   %.221 = icmp eq i64 %.187, 1
   %2 = inttoptr i64 %.209 to ptr
   br i1 %.221, label %B224, label %B278
 
 B224:
-  %.9.i1 = call i32 @_ZN18biped_adrc_kernels11put_numbersB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr readonly %2) #0
-  %.229 = load i64, ptr %sunkaddr157, align 8
+  %.9.i1 = call i32 @_ZN18biped_adrc_kernels11put_numbersB3v92B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a(ptr nonnull %.5.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125212214, ptr readonly %2) #0
+  %.229 = load i64, ptr %sunkaddr146, align 8
   %.230 = inttoptr i64 %.229 to ptr
-  %scevgep149 = getelementptr i8, ptr %.230, i64 %1
-  store i64 2, ptr %scevgep149, align 8
+  %scevgep138 = getelementptr i8, ptr %.230, i64 %1
+  store i64 2, ptr %scevgep138, align 8
   br label %B278
 
 B278:
   %.242 = getelementptr i8, ptr %2, i64 328
   %.243 = load i64, ptr %.242, align 8
   %.244 = inttoptr i64 %.243 to ptr
-  %.247 = load i64, ptr %sunkaddr159, align 8
+  %.247 = load i64, ptr %sunkaddr148, align 8
   %.248 = inttoptr i64 %.247 to ptr
   %.250 = getelementptr i8, ptr %2, i64 88
   %.251 = load i64, ptr %.250, align 8
-  %.11.i3 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i2, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr readonly %.244, ptr %.248, i64 %.251) #0
+  %.11.i3 = call i32 @_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.7.i2, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125212214, ptr readonly %.244, ptr %.248, i64 %.251) #0
   %.256 = getelementptr i8, ptr %2, i64 336
   %.257 = load i64, ptr %.256, align 8
   %.258 = inttoptr i64 %.257 to ptr
-  %.261 = load i64, ptr %sunkaddr160, align 8
+  %.261 = load i64, ptr %sunkaddr149, align 8
   %.262 = inttoptr i64 %.261 to ptr
-  %invariant.gep.i = getelementptr double, ptr %.262, i64 %.125217219
+  %invariant.gep.i = getelementptr double, ptr %.262, i64 %.125212214
   br label %B36.epil.i
 
 B36.epil.i:
@@ -10358,8 +10358,8 @@ _ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMe
   br i1 %.268, label %B442.endif, label %B574
 
 B574:
-  %some.3.1 = phi i64 [ %.285, %B442.endif ], [ %some.2.0221, %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit ], [ %some.2.0221, %B124 ], [ %some.2.0221, %B58 ]
-  %pushed.3.1 = phi i64 [ %.13.i, %B442.endif ], [ %pushed.2.0222, %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit ], [ %pushed.2.0222, %B124 ], [ %pushed.2.0222, %B58 ]
+  %some.3.1 = phi i64 [ %.285, %B442.endif ], [ %some.2.0216, %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit ], [ %some.2.0216, %B124 ], [ %some.2.0216, %B58 ]
+  %pushed.3.1 = phi i64 [ %.13.i, %B442.endif ], [ %pushed.2.0217, %_ZN18biped_adrc_kernels3putB3v90B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax10float64_2a10float64_2ax.exit ], [ %pushed.2.0217, %B124 ], [ %pushed.2.0217, %B58 ]
   %exitcond.not = icmp eq i64 %.36, %.132
   br i1 %exitcond.not, label %B578, label %B58
 
@@ -10369,14 +10369,14 @@ B578:
 
 B622:
   %5 = icmp sgt i64 %pushed.3.1, 0
-  %.371 = getelementptr i8, ptr %arg.s, i64 592
+  %.371 = getelementptr i8, ptr %arg.s, i64 600
   %.372 = load i64, ptr %.371, align 8
-  %.368 = load i64, ptr %sunkaddr176, align 8
+  %.368 = load i64, ptr %sunkaddr165, align 8
   br i1 %5, label %B636, label %B652.endif.endif
 
 B636:
-  %sunkaddr162 = getelementptr i8, ptr %arg.s, i64 568
-  %.466 = load i64, ptr %sunkaddr162, align 8
+  %sunkaddr151 = getelementptr i8, ptr %arg.s, i64 576
+  %.466 = load i64, ptr %sunkaddr151, align 8
   br label %B652.endif.endif
 
 B622.1.loopexit.unr-lcssa:
@@ -10384,272 +10384,279 @@ B622.1.loopexit.unr-lcssa:
   br i1 %lcmp.mod.not, label %B622.1, label %B800.endif.endif.epil.preheader
 
 B800.endif.endif.epil.preheader:
-  %.600228231.epil.init = phi i64 [ 0, %B800.endif.endif.preheader ], [ %unroll_iter, %B622.1.loopexit.unr-lcssa ]
-  %6 = shl i64 %.600228231.epil.init, 3
-  %scevgep119 = getelementptr i8, ptr %36, i64 %6
+  %.600223226.epil.init = phi i64 [ 0, %B800.endif.endif.preheader ], [ %unroll_iter, %B622.1.loopexit.unr-lcssa ]
+  %6 = shl i64 %.600223226.epil.init, 3
+  %scevgep108 = getelementptr i8, ptr %36, i64 %6
   br label %B800.endif.endif.epil
 
 B800.endif.endif.epil:
-  %lsr.iv124 = phi i64 [ %lsr.iv.next125, %B800.endif.endif.epil ], [ %xtraiter, %B800.endif.endif.epil.preheader ]
-  %lsr.iv120 = phi ptr [ %scevgep121, %B800.endif.endif.epil ], [ %scevgep119, %B800.endif.endif.epil.preheader ]
-  %.8.i14.epil = load i64, ptr %.7.i, align 8, !noalias !371
-  %.9.i15.epil = inttoptr i64 %.8.i14.epil to ptr
-  %.10.i16.epil = getelementptr i8, ptr %.9.i15.epil, i64 8
-  %.11.i17.epil = load i64, ptr %.10.i16.epil, align 8, !noalias !371
-  %.13.i19.epil = load i64, ptr %.35, align 8, !noalias !371
-  %7 = shl i64 %.11.i17.epil, 3
-  %8 = mul i64 %7, %.13.i19.epil
-  %scevgep123 = getelementptr i8, ptr %lsr.iv120, i64 %8
-  store double 0.000000e+00, ptr %scevgep123, align 8
-  %.8.i59.epil = load i64, ptr %.7.i, align 8, !noalias !374
-  %.9.i60.epil = inttoptr i64 %.8.i59.epil to ptr
-  %.10.i61.epil = getelementptr i8, ptr %.9.i60.epil, i64 112
-  %.11.i62.epil = load i64, ptr %.10.i61.epil, align 8, !noalias !374
-  %.13.i64.epil = load i64, ptr %.35, align 8, !noalias !374
-  %9 = shl i64 %.11.i62.epil, 3
-  %10 = mul i64 %9, %.13.i64.epil
-  %scevgep122 = getelementptr i8, ptr %lsr.iv120, i64 %10
-  store double 0.000000e+00, ptr %scevgep122, align 8
-  %scevgep121 = getelementptr i8, ptr %lsr.iv120, i64 8
-  %lsr.iv.next125 = add nsw i64 %lsr.iv124, -1
-  %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next125, 0
+  %lsr.iv113 = phi i64 [ %lsr.iv.next114, %B800.endif.endif.epil ], [ %xtraiter, %B800.endif.endif.epil.preheader ]
+  %lsr.iv109 = phi ptr [ %scevgep110, %B800.endif.endif.epil ], [ %scevgep108, %B800.endif.endif.epil.preheader ]
+  %.8.i13.epil = load i64, ptr %.7.i, align 8, !noalias !371
+  %.9.i14.epil = inttoptr i64 %.8.i13.epil to ptr
+  %.10.i15.epil = getelementptr i8, ptr %.9.i14.epil, i64 8
+  %.11.i16.epil = load i64, ptr %.10.i15.epil, align 8, !noalias !371
+  %.13.i18.epil = load i64, ptr %.35, align 8, !noalias !371
+  %7 = shl i64 %.11.i16.epil, 3
+  %8 = mul i64 %7, %.13.i18.epil
+  %scevgep112 = getelementptr i8, ptr %lsr.iv109, i64 %8
+  store double 0.000000e+00, ptr %scevgep112, align 8
+  %.8.i58.epil = load i64, ptr %.7.i, align 8, !noalias !374
+  %.9.i59.epil = inttoptr i64 %.8.i58.epil to ptr
+  %.10.i60.epil = getelementptr i8, ptr %.9.i59.epil, i64 112
+  %.11.i61.epil = load i64, ptr %.10.i60.epil, align 8, !noalias !374
+  %.13.i63.epil = load i64, ptr %.35, align 8, !noalias !374
+  %9 = shl i64 %.11.i61.epil, 3
+  %10 = mul i64 %9, %.13.i63.epil
+  %scevgep111 = getelementptr i8, ptr %lsr.iv109, i64 %10
+  store double 0.000000e+00, ptr %scevgep111, align 8
+  %scevgep110 = getelementptr i8, ptr %lsr.iv109, i64 8
+  %lsr.iv.next114 = add nsw i64 %lsr.iv113, -1
+  %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next114, 0
   br i1 %epil.iter.cmp.not, label %B622.1, label %B800.endif.endif.epil, !llvm.loop !377
 
 B622.1:
   br i1 %5, label %B636.1, label %B652.endif.endif.1
 
 B636.1:
-  %sunkaddr165 = getelementptr i8, ptr %arg.s, i64 568
-  %.466.1 = load i64, ptr %sunkaddr165, align 8
+  %sunkaddr154 = getelementptr i8, ptr %arg.s, i64 576
+  %.466.1 = load i64, ptr %sunkaddr154, align 8
   br label %B652.endif.endif.1
 
 B652.endif.endif.1:
   %"$phi652.1.2.1.1" = phi i64 [ %.466.1, %B636.1 ], [ 0, %B622.1 ]
   %11 = inttoptr i64 %.372 to ptr
-  %.8.i23 = load i64, ptr %.7.i, align 8, !noalias !378
-  %.9.i24 = inttoptr i64 %.8.i23 to ptr
-  %.10.i25 = getelementptr i8, ptr %.9.i24, i64 120
-  %.11.i26 = load i64, ptr %.10.i25, align 8, !noalias !378
-  %.13.i28 = load i64, ptr %.35, align 8, !noalias !378
-  %.14.i29 = mul nsw i64 %.13.i28, %.11.i26
-  %.15.i30 = getelementptr double, ptr %11, i64 %.14.i29
-  store i64 %"$phi652.1.2.1.1", ptr %.15.i30, align 8
-  %.509.1 = load i64, ptr %sunkaddr181, align 8
+  %.8.i22 = load i64, ptr %.7.i, align 8, !noalias !378
+  %.9.i23 = inttoptr i64 %.8.i22 to ptr
+  %.10.i24 = getelementptr i8, ptr %.9.i23, i64 120
+  %.11.i25 = load i64, ptr %.10.i24, align 8, !noalias !378
+  %.13.i27 = load i64, ptr %.35, align 8, !noalias !378
+  %.14.i28 = mul nsw i64 %.13.i27, %.11.i25
+  %.15.i29 = getelementptr double, ptr %11, i64 %.14.i28
+  store i64 %"$phi652.1.2.1.1", ptr %.15.i29, align 8
+  %.509.1 = load i64, ptr %sunkaddr170, align 8
   %.510.1 = add nsw i64 %.509.1, 2
   %.513.1 = load i64, ptr %.35, align 8
   %.514.1 = mul nsw i64 %.510.1, %.513.1
-  %.594230.not.1 = icmp slt i64 %.514.1, 1
-  br i1 %.594230.not.1, label %B904.1, label %B800.endif.endif.1.preheader
+  %.594225.not.1 = icmp slt i64 %.514.1, 1
+  br i1 %.594225.not.1, label %B904.1, label %B800.endif.endif.1.preheader
 
 B800.endif.endif.1.preheader:
-  %xtraiter82 = and i64 %.514.1, 3
+  %xtraiter72 = and i64 %.514.1, 3
   %12 = icmp samesign ult i64 %.514.1, 4
   br i1 %12, label %B800.endif.endif.1.epil.preheader, label %B800.endif.endif.1.preheader.new
 
 B800.endif.endif.1.preheader.new:
-  %unroll_iter86 = and i64 %.514.1, 9223372036854775804
+  %unroll_iter76 = and i64 %.514.1, 9223372036854775804
   br label %B800.endif.endif.1
 
 B800.endif.endif.1:
-  %.600228231.1 = phi i64 [ 0, %B800.endif.endif.1.preheader.new ], [ %.607.1.3, %B800.endif.endif.1 ]
-  %.8.i32 = load i64, ptr %.7.i, align 8, !noalias !381
-  %.9.i33 = inttoptr i64 %.8.i32 to ptr
-  %.10.i34 = getelementptr i8, ptr %.9.i33, i64 8
-  %.11.i35 = load i64, ptr %.10.i34, align 8, !noalias !381
-  %.13.i37 = load i64, ptr %.35, align 8, !noalias !381
-  %13 = shl i64 %.11.i35, 3
-  %14 = mul i64 %13, %.13.i37
-  %scevgep117 = getelementptr i8, ptr %11, i64 %14
-  %15 = shl i64 %.600228231.1, 3
-  %scevgep118 = getelementptr i8, ptr %scevgep117, i64 %15
-  store double 0.000000e+00, ptr %scevgep118, align 8
-  %.8.i41 = load i64, ptr %.7.i, align 8, !noalias !384
-  %.9.i42 = inttoptr i64 %.8.i41 to ptr
-  %.10.i43 = getelementptr i8, ptr %.9.i42, i64 112
-  %.11.i44 = load i64, ptr %.10.i43, align 8, !noalias !384
-  %.13.i46 = load i64, ptr %.35, align 8, !noalias !384
-  %16 = shl i64 %.11.i44, 3
-  %17 = mul i64 %16, %.13.i46
-  %scevgep115 = getelementptr i8, ptr %11, i64 %17
-  %scevgep116 = getelementptr i8, ptr %scevgep115, i64 %15
-  store double 0.000000e+00, ptr %scevgep116, align 8
-  %.8.i32.1 = load i64, ptr %.7.i, align 8, !noalias !381
-  %.9.i33.1 = inttoptr i64 %.8.i32.1 to ptr
-  %.10.i34.1 = getelementptr i8, ptr %.9.i33.1, i64 8
-  %.11.i35.1 = load i64, ptr %.10.i34.1, align 8, !noalias !381
-  %.13.i37.1 = load i64, ptr %.35, align 8, !noalias !381
-  %18 = shl i64 %.11.i35.1, 3
-  %19 = mul i64 %18, %.13.i37.1
-  %scevgep109 = getelementptr i8, ptr %11, i64 %19
-  %scevgep110 = getelementptr i8, ptr %scevgep109, i64 %15
-  %scevgep111 = getelementptr i8, ptr %scevgep110, i64 8
-  store double 0.000000e+00, ptr %scevgep111, align 8
-  %.8.i41.1 = load i64, ptr %.7.i, align 8, !noalias !384
-  %.9.i42.1 = inttoptr i64 %.8.i41.1 to ptr
-  %.10.i43.1 = getelementptr i8, ptr %.9.i42.1, i64 112
-  %.11.i44.1 = load i64, ptr %.10.i43.1, align 8, !noalias !384
-  %.13.i46.1 = load i64, ptr %.35, align 8, !noalias !384
-  %20 = shl i64 %.11.i44.1, 3
-  %21 = mul i64 %20, %.13.i46.1
-  %scevgep112 = getelementptr i8, ptr %11, i64 %21
-  %scevgep113 = getelementptr i8, ptr %scevgep112, i64 %15
-  %scevgep114 = getelementptr i8, ptr %scevgep113, i64 8
-  store double 0.000000e+00, ptr %scevgep114, align 8
-  %.8.i32.2 = load i64, ptr %.7.i, align 8, !noalias !381
-  %.9.i33.2 = inttoptr i64 %.8.i32.2 to ptr
-  %.10.i34.2 = getelementptr i8, ptr %.9.i33.2, i64 8
-  %.11.i35.2 = load i64, ptr %.10.i34.2, align 8, !noalias !381
-  %.13.i37.2 = load i64, ptr %.35, align 8, !noalias !381
-  %22 = shl i64 %.11.i35.2, 3
-  %23 = mul i64 %22, %.13.i37.2
-  %scevgep103 = getelementptr i8, ptr %11, i64 %23
-  %scevgep104 = getelementptr i8, ptr %scevgep103, i64 %15
-  %scevgep105 = getelementptr i8, ptr %scevgep104, i64 16
-  store double 0.000000e+00, ptr %scevgep105, align 8
-  %.8.i41.2 = load i64, ptr %.7.i, align 8, !noalias !384
-  %.9.i42.2 = inttoptr i64 %.8.i41.2 to ptr
-  %.10.i43.2 = getelementptr i8, ptr %.9.i42.2, i64 112
-  %.11.i44.2 = load i64, ptr %.10.i43.2, align 8, !noalias !384
-  %.13.i46.2 = load i64, ptr %.35, align 8, !noalias !384
-  %24 = shl i64 %.11.i44.2, 3
-  %25 = mul i64 %24, %.13.i46.2
-  %scevgep106 = getelementptr i8, ptr %11, i64 %25
+  %.600223226.1 = phi i64 [ 0, %B800.endif.endif.1.preheader.new ], [ %.607.1.3, %B800.endif.endif.1 ]
+  %.8.i31 = load i64, ptr %.7.i, align 8, !noalias !381
+  %.9.i32 = inttoptr i64 %.8.i31 to ptr
+  %.10.i33 = getelementptr i8, ptr %.9.i32, i64 8
+  %.11.i34 = load i64, ptr %.10.i33, align 8, !noalias !381
+  %.13.i36 = load i64, ptr %.35, align 8, !noalias !381
+  %13 = shl i64 %.11.i34, 3
+  %14 = mul i64 %13, %.13.i36
+  %scevgep106 = getelementptr i8, ptr %11, i64 %14
+  %15 = shl i64 %.600223226.1, 3
   %scevgep107 = getelementptr i8, ptr %scevgep106, i64 %15
-  %scevgep108 = getelementptr i8, ptr %scevgep107, i64 16
-  store double 0.000000e+00, ptr %scevgep108, align 8
-  %.607.1.3 = add nuw i64 %.600228231.1, 4
-  %.8.i32.3 = load i64, ptr %.7.i, align 8, !noalias !381
-  %.9.i33.3 = inttoptr i64 %.8.i32.3 to ptr
-  %.10.i34.3 = getelementptr i8, ptr %.9.i33.3, i64 8
-  %.11.i35.3 = load i64, ptr %.10.i34.3, align 8, !noalias !381
-  %.13.i37.3 = load i64, ptr %.35, align 8, !noalias !381
-  %26 = shl i64 %.11.i35.3, 3
-  %27 = mul i64 %26, %.13.i37.3
-  %scevgep97 = getelementptr i8, ptr %11, i64 %27
-  %scevgep98 = getelementptr i8, ptr %scevgep97, i64 %15
-  %scevgep99 = getelementptr i8, ptr %scevgep98, i64 24
-  store double 0.000000e+00, ptr %scevgep99, align 8
-  %.8.i41.3 = load i64, ptr %.7.i, align 8, !noalias !384
-  %.9.i42.3 = inttoptr i64 %.8.i41.3 to ptr
-  %.10.i43.3 = getelementptr i8, ptr %.9.i42.3, i64 112
-  %.11.i44.3 = load i64, ptr %.10.i43.3, align 8, !noalias !384
-  %.13.i46.3 = load i64, ptr %.35, align 8, !noalias !384
-  %28 = shl i64 %.11.i44.3, 3
-  %29 = mul i64 %28, %.13.i46.3
-  %scevgep100 = getelementptr i8, ptr %11, i64 %29
-  %scevgep101 = getelementptr i8, ptr %scevgep100, i64 %15
-  %scevgep102 = getelementptr i8, ptr %scevgep101, i64 24
-  store double 0.000000e+00, ptr %scevgep102, align 8
-  %niter87.ncmp.3 = icmp eq i64 %unroll_iter86, %.607.1.3
-  br i1 %niter87.ncmp.3, label %B904.1.loopexit.unr-lcssa, label %B800.endif.endif.1
+  store double 0.000000e+00, ptr %scevgep107, align 8
+  %.8.i40 = load i64, ptr %.7.i, align 8, !noalias !384
+  %.9.i41 = inttoptr i64 %.8.i40 to ptr
+  %.10.i42 = getelementptr i8, ptr %.9.i41, i64 112
+  %.11.i43 = load i64, ptr %.10.i42, align 8, !noalias !384
+  %.13.i45 = load i64, ptr %.35, align 8, !noalias !384
+  %16 = shl i64 %.11.i43, 3
+  %17 = mul i64 %16, %.13.i45
+  %scevgep104 = getelementptr i8, ptr %11, i64 %17
+  %scevgep105 = getelementptr i8, ptr %scevgep104, i64 %15
+  store double 0.000000e+00, ptr %scevgep105, align 8
+  %.8.i31.1 = load i64, ptr %.7.i, align 8, !noalias !381
+  %.9.i32.1 = inttoptr i64 %.8.i31.1 to ptr
+  %.10.i33.1 = getelementptr i8, ptr %.9.i32.1, i64 8
+  %.11.i34.1 = load i64, ptr %.10.i33.1, align 8, !noalias !381
+  %.13.i36.1 = load i64, ptr %.35, align 8, !noalias !381
+  %18 = shl i64 %.11.i34.1, 3
+  %19 = mul i64 %18, %.13.i36.1
+  %scevgep98 = getelementptr i8, ptr %11, i64 %19
+  %scevgep99 = getelementptr i8, ptr %scevgep98, i64 %15
+  %scevgep100 = getelementptr i8, ptr %scevgep99, i64 8
+  store double 0.000000e+00, ptr %scevgep100, align 8
+  %.8.i40.1 = load i64, ptr %.7.i, align 8, !noalias !384
+  %.9.i41.1 = inttoptr i64 %.8.i40.1 to ptr
+  %.10.i42.1 = getelementptr i8, ptr %.9.i41.1, i64 112
+  %.11.i43.1 = load i64, ptr %.10.i42.1, align 8, !noalias !384
+  %.13.i45.1 = load i64, ptr %.35, align 8, !noalias !384
+  %20 = shl i64 %.11.i43.1, 3
+  %21 = mul i64 %20, %.13.i45.1
+  %scevgep101 = getelementptr i8, ptr %11, i64 %21
+  %scevgep102 = getelementptr i8, ptr %scevgep101, i64 %15
+  %scevgep103 = getelementptr i8, ptr %scevgep102, i64 8
+  store double 0.000000e+00, ptr %scevgep103, align 8
+  %.8.i31.2 = load i64, ptr %.7.i, align 8, !noalias !381
+  %.9.i32.2 = inttoptr i64 %.8.i31.2 to ptr
+  %.10.i33.2 = getelementptr i8, ptr %.9.i32.2, i64 8
+  %.11.i34.2 = load i64, ptr %.10.i33.2, align 8, !noalias !381
+  %.13.i36.2 = load i64, ptr %.35, align 8, !noalias !381
+  %22 = shl i64 %.11.i34.2, 3
+  %23 = mul i64 %22, %.13.i36.2
+  %scevgep92 = getelementptr i8, ptr %11, i64 %23
+  %scevgep93 = getelementptr i8, ptr %scevgep92, i64 %15
+  %scevgep94 = getelementptr i8, ptr %scevgep93, i64 16
+  store double 0.000000e+00, ptr %scevgep94, align 8
+  %.8.i40.2 = load i64, ptr %.7.i, align 8, !noalias !384
+  %.9.i41.2 = inttoptr i64 %.8.i40.2 to ptr
+  %.10.i42.2 = getelementptr i8, ptr %.9.i41.2, i64 112
+  %.11.i43.2 = load i64, ptr %.10.i42.2, align 8, !noalias !384
+  %.13.i45.2 = load i64, ptr %.35, align 8, !noalias !384
+  %24 = shl i64 %.11.i43.2, 3
+  %25 = mul i64 %24, %.13.i45.2
+  %scevgep95 = getelementptr i8, ptr %11, i64 %25
+  %scevgep96 = getelementptr i8, ptr %scevgep95, i64 %15
+  %scevgep97 = getelementptr i8, ptr %scevgep96, i64 16
+  store double 0.000000e+00, ptr %scevgep97, align 8
+  %.607.1.3 = add nuw i64 %.600223226.1, 4
+  %.8.i31.3 = load i64, ptr %.7.i, align 8, !noalias !381
+  %.9.i32.3 = inttoptr i64 %.8.i31.3 to ptr
+  %.10.i33.3 = getelementptr i8, ptr %.9.i32.3, i64 8
+  %.11.i34.3 = load i64, ptr %.10.i33.3, align 8, !noalias !381
+  %.13.i36.3 = load i64, ptr %.35, align 8, !noalias !381
+  %26 = shl i64 %.11.i34.3, 3
+  %27 = mul i64 %26, %.13.i36.3
+  %scevgep86 = getelementptr i8, ptr %11, i64 %27
+  %scevgep87 = getelementptr i8, ptr %scevgep86, i64 %15
+  %scevgep88 = getelementptr i8, ptr %scevgep87, i64 24
+  store double 0.000000e+00, ptr %scevgep88, align 8
+  %.8.i40.3 = load i64, ptr %.7.i, align 8, !noalias !384
+  %.9.i41.3 = inttoptr i64 %.8.i40.3 to ptr
+  %.10.i42.3 = getelementptr i8, ptr %.9.i41.3, i64 112
+  %.11.i43.3 = load i64, ptr %.10.i42.3, align 8, !noalias !384
+  %.13.i45.3 = load i64, ptr %.35, align 8, !noalias !384
+  %28 = shl i64 %.11.i43.3, 3
+  %29 = mul i64 %28, %.13.i45.3
+  %scevgep89 = getelementptr i8, ptr %11, i64 %29
+  %scevgep90 = getelementptr i8, ptr %scevgep89, i64 %15
+  %scevgep91 = getelementptr i8, ptr %scevgep90, i64 24
+  store double 0.000000e+00, ptr %scevgep91, align 8
+  %niter77.ncmp.3 = icmp eq i64 %unroll_iter76, %.607.1.3
+  br i1 %niter77.ncmp.3, label %B904.1.loopexit.unr-lcssa, label %B800.endif.endif.1
 
 B904.1.loopexit.unr-lcssa:
-  %lcmp.mod84.not = icmp eq i64 %xtraiter82, 0
-  br i1 %lcmp.mod84.not, label %B904.1, label %B800.endif.endif.1.epil.preheader
+  %lcmp.mod74.not = icmp eq i64 %xtraiter72, 0
+  br i1 %lcmp.mod74.not, label %B904.1, label %B800.endif.endif.1.epil.preheader
 
 B800.endif.endif.1.epil.preheader:
-  %.600228231.1.epil.init = phi i64 [ 0, %B800.endif.endif.1.preheader ], [ %unroll_iter86, %B904.1.loopexit.unr-lcssa ]
-  %30 = shl i64 %.600228231.1.epil.init, 3
-  %scevgep92 = getelementptr i8, ptr %11, i64 %30
+  %.600223226.1.epil.init = phi i64 [ 0, %B800.endif.endif.1.preheader ], [ %unroll_iter76, %B904.1.loopexit.unr-lcssa ]
+  %30 = shl i64 %.600223226.1.epil.init, 3
+  %scevgep81 = getelementptr i8, ptr %11, i64 %30
   br label %B800.endif.endif.1.epil
 
 B800.endif.endif.1.epil:
-  %lsr.iv96 = phi i64 [ %lsr.iv.next, %B800.endif.endif.1.epil ], [ %xtraiter82, %B800.endif.endif.1.epil.preheader ]
-  %lsr.iv = phi ptr [ %scevgep93, %B800.endif.endif.1.epil ], [ %scevgep92, %B800.endif.endif.1.epil.preheader ]
-  %.8.i32.epil = load i64, ptr %.7.i, align 8, !noalias !381
-  %.9.i33.epil = inttoptr i64 %.8.i32.epil to ptr
-  %.10.i34.epil = getelementptr i8, ptr %.9.i33.epil, i64 8
-  %.11.i35.epil = load i64, ptr %.10.i34.epil, align 8, !noalias !381
-  %.13.i37.epil = load i64, ptr %.35, align 8, !noalias !381
-  %31 = shl i64 %.11.i35.epil, 3
-  %32 = mul i64 %31, %.13.i37.epil
-  %scevgep95 = getelementptr i8, ptr %lsr.iv, i64 %32
-  store double 0.000000e+00, ptr %scevgep95, align 8
-  %.8.i41.epil = load i64, ptr %.7.i, align 8, !noalias !384
-  %.9.i42.epil = inttoptr i64 %.8.i41.epil to ptr
-  %.10.i43.epil = getelementptr i8, ptr %.9.i42.epil, i64 112
-  %.11.i44.epil = load i64, ptr %.10.i43.epil, align 8, !noalias !384
-  %.13.i46.epil = load i64, ptr %.35, align 8, !noalias !384
-  %33 = shl i64 %.11.i44.epil, 3
-  %34 = mul i64 %33, %.13.i46.epil
-  %scevgep94 = getelementptr i8, ptr %lsr.iv, i64 %34
-  store double 0.000000e+00, ptr %scevgep94, align 8
-  %scevgep93 = getelementptr i8, ptr %lsr.iv, i64 8
-  %lsr.iv.next = add nsw i64 %lsr.iv96, -1
-  %epil.iter83.cmp.not = icmp eq i64 %lsr.iv.next, 0
-  br i1 %epil.iter83.cmp.not, label %B904.1, label %B800.endif.endif.1.epil, !llvm.loop !387
+  %lsr.iv85 = phi i64 [ %lsr.iv.next, %B800.endif.endif.1.epil ], [ %xtraiter72, %B800.endif.endif.1.epil.preheader ]
+  %lsr.iv = phi ptr [ %scevgep82, %B800.endif.endif.1.epil ], [ %scevgep81, %B800.endif.endif.1.epil.preheader ]
+  %.8.i31.epil = load i64, ptr %.7.i, align 8, !noalias !381
+  %.9.i32.epil = inttoptr i64 %.8.i31.epil to ptr
+  %.10.i33.epil = getelementptr i8, ptr %.9.i32.epil, i64 8
+  %.11.i34.epil = load i64, ptr %.10.i33.epil, align 8, !noalias !381
+  %.13.i36.epil = load i64, ptr %.35, align 8, !noalias !381
+  %31 = shl i64 %.11.i34.epil, 3
+  %32 = mul i64 %31, %.13.i36.epil
+  %scevgep84 = getelementptr i8, ptr %lsr.iv, i64 %32
+  store double 0.000000e+00, ptr %scevgep84, align 8
+  %.8.i40.epil = load i64, ptr %.7.i, align 8, !noalias !384
+  %.9.i41.epil = inttoptr i64 %.8.i40.epil to ptr
+  %.10.i42.epil = getelementptr i8, ptr %.9.i41.epil, i64 112
+  %.11.i43.epil = load i64, ptr %.10.i42.epil, align 8, !noalias !384
+  %.13.i45.epil = load i64, ptr %.35, align 8, !noalias !384
+  %33 = shl i64 %.11.i43.epil, 3
+  %34 = mul i64 %33, %.13.i45.epil
+  %scevgep83 = getelementptr i8, ptr %lsr.iv, i64 %34
+  store double 0.000000e+00, ptr %scevgep83, align 8
+  %scevgep82 = getelementptr i8, ptr %lsr.iv, i64 8
+  %lsr.iv.next = add nsw i64 %lsr.iv85, -1
+  %epil.iter73.cmp.not = icmp eq i64 %lsr.iv.next, 0
+  br i1 %epil.iter73.cmp.not, label %B904.1, label %B800.endif.endif.1.epil, !llvm.loop !387
 
 B904.1:
   %.707 = tail call ptr @sample_all(ptr nonnull %arg.s)
   %.710 = load i64, ptr %.35, align 8
-  %.790256.not = icmp slt i64 %.710, 1
-  br i1 %.790256.not, label %common.ret, label %B978.lr.ph
+  %.790249.not = icmp slt i64 %.710, 1
+  br i1 %.790249.not, label %common.ret, label %B978.lr.ph
 
 B978:
-  %.796254257 = phi i64 [ 0, %B978.lr.ph ], [ %.803, %B1362 ]
-  %.803 = add nuw nsw i64 %.796254257, 1
+  %.796248250 = phi i64 [ 0, %B978.lr.ph ], [ %.803, %B1283 ]
+  %.803 = add nuw nsw i64 %.796248250, 1
   %.833 = load i64, ptr %sunkaddr, align 8
   %.834 = inttoptr i64 %.833 to ptr
-  %35 = shl i64 %.796254257, 3
-  %scevgep91 = getelementptr i8, ptr %.834, i64 %35
-  %.837 = load i64, ptr %scevgep91, align 8
+  %35 = shl i64 %.796248250, 3
+  %scevgep80 = getelementptr i8, ptr %.834, i64 %35
+  %.837 = load i64, ptr %scevgep80, align 8
   %.838.not = icmp eq i64 %.837, 0
-  br i1 %.838.not, label %B1362, label %B1166.endif
+  br i1 %.838.not, label %B1283, label %B1014.endif
 
-B1252:
-  %.10.i7 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.796254257, ptr nonnull readonly %.847, ptr nonnull readonly %.909) #0
-  %.950 = load i64, ptr %.371, align 8
-  %.951 = inttoptr i64 %.950 to ptr
-  %scevgep88 = getelementptr i8, ptr %.951, i64 %35
-  %.954 = load double, ptr %scevgep88, align 8
-  %.956 = getelementptr i8, ptr %.847, i64 344
-  store double %.954, ptr %.956, align 8
+B1140:
+  %.10.i7 = call i32 @_ZN18biped_adrc_kernels5leaveB3v93B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.796248250, ptr nonnull readonly %56, ptr nonnull readonly %.855) #0
+  %.896 = load i64, ptr %.371, align 8
+  %.897 = inttoptr i64 %.896 to ptr
+  %scevgep78 = getelementptr i8, ptr %.897, i64 %35
+  %.900 = load double, ptr %scevgep78, align 8
+  %.902 = getelementptr i8, ptr %56, i64 344
+  store double %.900, ptr %.902, align 8
   %scevgep = getelementptr i8, ptr %55, i64 %35
   store i64 -2, ptr %scevgep, align 8
-  br label %B1362
+  br label %B1283
 
-B1362:
-  %exitcond289.not = icmp eq i64 %.710, %.803
-  br i1 %exitcond289.not, label %common.ret, label %B978
+B1252:
+  %.919 = getelementptr i8, ptr %56, i64 440
+  %.920 = load i64, ptr %.919, align 8
+  %.922 = getelementptr i8, ptr %56, i64 408
+  store i64 %.920, ptr %.922, align 8
+  br label %B1283
 
 common.ret:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
+B1283:
+  %exitcond281.not = icmp eq i64 %.710, %.803
+  br i1 %exitcond281.not, label %common.ret, label %B978
+
 B442.endif:
-  %.272 = load i64, ptr %sunkaddr176, align 8
+  %.272 = load i64, ptr %sunkaddr165, align 8
   %.273 = inttoptr i64 %.272 to ptr
-  %.10.i9 = call i32 @_ZN18biped_adrc_kernels5enterB4v102B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125217219, ptr nonnull %2, ptr %.273) #0
-  %.281 = load i64, ptr %scevgep153, align 8
+  %.10.i9 = call i32 @_ZN18biped_adrc_kernels5enterB4v102B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE8int64_2ax8int64_2a10float64_2a(ptr nonnull %.6.i8, ptr nonnull poison, ptr nonnull readonly %arg.s, i64 %.125212214, ptr nonnull %2, ptr %.273) #0
+  %.281 = load i64, ptr %scevgep142, align 8
   %.289 = getelementptr i8, ptr %2, i64 200
   %.290 = load i64, ptr %.289, align 8
-  %.13.i = tail call i64 @llvm.smax.i64(i64 %.290, i64 %pushed.2.0222)
-  %.285 = add nsw i64 %some.2.0221, 1
+  %.13.i = tail call i64 @llvm.smax.i64(i64 %.290, i64 %pushed.2.0217)
+  %.285 = add nsw i64 %some.2.0216, 1
   %.326 = load i64, ptr %sunkaddr, align 8
   %.327 = inttoptr i64 %.326 to ptr
-  %scevgep148 = getelementptr i8, ptr %.327, i64 %1
-  store i64 %.281, ptr %scevgep148, align 8
+  %scevgep137 = getelementptr i8, ptr %.327, i64 %1
+  store i64 %.281, ptr %scevgep137, align 8
   br label %B574
 
 B652.endif.endif:
   %"$phi652.1.2.1" = phi i64 [ %.466, %B636 ], [ 0, %B622 ]
   %36 = inttoptr i64 %.368 to ptr
-  %.7.i = getelementptr i8, ptr %arg.s, i64 576
+  %.7.i = getelementptr i8, ptr %arg.s, i64 584
   %.8.i = load i64, ptr %.7.i, align 8, !noalias !388
   %.9.i = inttoptr i64 %.8.i to ptr
   %.10.i = getelementptr i8, ptr %.9.i, i64 120
   %.11.i = load i64, ptr %.10.i, align 8, !noalias !388
-  %.13.i12 = load i64, ptr %.35, align 8, !noalias !388
-  %.14.i = mul nsw i64 %.13.i12, %.11.i
+  %.13.i11 = load i64, ptr %.35, align 8, !noalias !388
+  %.14.i = mul nsw i64 %.13.i11, %.11.i
   %.15.i = getelementptr double, ptr %36, i64 %.14.i
   store i64 %"$phi652.1.2.1", ptr %.15.i, align 8
-  %sunkaddr181 = getelementptr i8, ptr %arg.s, i64 72
-  %.509 = load i64, ptr %sunkaddr181, align 8
+  %sunkaddr170 = getelementptr i8, ptr %arg.s, i64 72
+  %.509 = load i64, ptr %sunkaddr170, align 8
   %.510 = add nsw i64 %.509, 2
   %.513 = load i64, ptr %.35, align 8
   %.514 = mul nsw i64 %.510, %.513
-  %.594230.not = icmp slt i64 %.514, 1
-  br i1 %.594230.not, label %B622.1, label %B800.endif.endif.preheader
+  %.594225.not = icmp slt i64 %.514, 1
+  br i1 %.594225.not, label %B622.1, label %B800.endif.endif.preheader
 
 B800.endif.endif.preheader:
   %xtraiter = and i64 %.514, 3
@@ -10661,95 +10668,95 @@ B800.endif.endif.preheader.new:
   br label %B800.endif.endif
 
 B800.endif.endif:
-  %.600228231 = phi i64 [ 0, %B800.endif.endif.preheader.new ], [ %.607.3, %B800.endif.endif ]
-  %.8.i14 = load i64, ptr %.7.i, align 8, !noalias !371
-  %.9.i15 = inttoptr i64 %.8.i14 to ptr
-  %.10.i16 = getelementptr i8, ptr %.9.i15, i64 8
-  %.11.i17 = load i64, ptr %.10.i16, align 8, !noalias !371
-  %.13.i19 = load i64, ptr %.35, align 8, !noalias !371
-  %38 = shl i64 %.11.i17, 3
-  %39 = mul i64 %38, %.13.i19
-  %scevgep146 = getelementptr i8, ptr %36, i64 %39
-  %40 = shl i64 %.600228231, 3
-  %scevgep147 = getelementptr i8, ptr %scevgep146, i64 %40
-  store double 0.000000e+00, ptr %scevgep147, align 8
-  %.8.i59 = load i64, ptr %.7.i, align 8, !noalias !374
-  %.9.i60 = inttoptr i64 %.8.i59 to ptr
-  %.10.i61 = getelementptr i8, ptr %.9.i60, i64 112
-  %.11.i62 = load i64, ptr %.10.i61, align 8, !noalias !374
-  %.13.i64 = load i64, ptr %.35, align 8, !noalias !374
-  %41 = shl i64 %.11.i62, 3
-  %42 = mul i64 %41, %.13.i64
-  %scevgep144 = getelementptr i8, ptr %36, i64 %42
-  %scevgep145 = getelementptr i8, ptr %scevgep144, i64 %40
-  store double 0.000000e+00, ptr %scevgep145, align 8
-  %.8.i14.1 = load i64, ptr %.7.i, align 8, !noalias !371
-  %.9.i15.1 = inttoptr i64 %.8.i14.1 to ptr
-  %.10.i16.1 = getelementptr i8, ptr %.9.i15.1, i64 8
-  %.11.i17.1 = load i64, ptr %.10.i16.1, align 8, !noalias !371
-  %.13.i19.1 = load i64, ptr %.35, align 8, !noalias !371
-  %43 = shl i64 %.11.i17.1, 3
-  %44 = mul i64 %43, %.13.i19.1
-  %scevgep138 = getelementptr i8, ptr %36, i64 %44
-  %scevgep139 = getelementptr i8, ptr %scevgep138, i64 %40
-  %scevgep140 = getelementptr i8, ptr %scevgep139, i64 8
-  store double 0.000000e+00, ptr %scevgep140, align 8
-  %.8.i59.1 = load i64, ptr %.7.i, align 8, !noalias !374
-  %.9.i60.1 = inttoptr i64 %.8.i59.1 to ptr
-  %.10.i61.1 = getelementptr i8, ptr %.9.i60.1, i64 112
-  %.11.i62.1 = load i64, ptr %.10.i61.1, align 8, !noalias !374
-  %.13.i64.1 = load i64, ptr %.35, align 8, !noalias !374
-  %45 = shl i64 %.11.i62.1, 3
-  %46 = mul i64 %45, %.13.i64.1
-  %scevgep141 = getelementptr i8, ptr %36, i64 %46
-  %scevgep142 = getelementptr i8, ptr %scevgep141, i64 %40
-  %scevgep143 = getelementptr i8, ptr %scevgep142, i64 8
-  store double 0.000000e+00, ptr %scevgep143, align 8
-  %.8.i14.2 = load i64, ptr %.7.i, align 8, !noalias !371
-  %.9.i15.2 = inttoptr i64 %.8.i14.2 to ptr
-  %.10.i16.2 = getelementptr i8, ptr %.9.i15.2, i64 8
-  %.11.i17.2 = load i64, ptr %.10.i16.2, align 8, !noalias !371
-  %.13.i19.2 = load i64, ptr %.35, align 8, !noalias !371
-  %47 = shl i64 %.11.i17.2, 3
-  %48 = mul i64 %47, %.13.i19.2
-  %scevgep132 = getelementptr i8, ptr %36, i64 %48
-  %scevgep133 = getelementptr i8, ptr %scevgep132, i64 %40
-  %scevgep134 = getelementptr i8, ptr %scevgep133, i64 16
-  store double 0.000000e+00, ptr %scevgep134, align 8
-  %.8.i59.2 = load i64, ptr %.7.i, align 8, !noalias !374
-  %.9.i60.2 = inttoptr i64 %.8.i59.2 to ptr
-  %.10.i61.2 = getelementptr i8, ptr %.9.i60.2, i64 112
-  %.11.i62.2 = load i64, ptr %.10.i61.2, align 8, !noalias !374
-  %.13.i64.2 = load i64, ptr %.35, align 8, !noalias !374
-  %49 = shl i64 %.11.i62.2, 3
-  %50 = mul i64 %49, %.13.i64.2
-  %scevgep135 = getelementptr i8, ptr %36, i64 %50
+  %.600223226 = phi i64 [ 0, %B800.endif.endif.preheader.new ], [ %.607.3, %B800.endif.endif ]
+  %.8.i13 = load i64, ptr %.7.i, align 8, !noalias !371
+  %.9.i14 = inttoptr i64 %.8.i13 to ptr
+  %.10.i15 = getelementptr i8, ptr %.9.i14, i64 8
+  %.11.i16 = load i64, ptr %.10.i15, align 8, !noalias !371
+  %.13.i18 = load i64, ptr %.35, align 8, !noalias !371
+  %38 = shl i64 %.11.i16, 3
+  %39 = mul i64 %38, %.13.i18
+  %scevgep135 = getelementptr i8, ptr %36, i64 %39
+  %40 = shl i64 %.600223226, 3
   %scevgep136 = getelementptr i8, ptr %scevgep135, i64 %40
-  %scevgep137 = getelementptr i8, ptr %scevgep136, i64 16
-  store double 0.000000e+00, ptr %scevgep137, align 8
-  %.607.3 = add nuw i64 %.600228231, 4
-  %.8.i14.3 = load i64, ptr %.7.i, align 8, !noalias !371
-  %.9.i15.3 = inttoptr i64 %.8.i14.3 to ptr
-  %.10.i16.3 = getelementptr i8, ptr %.9.i15.3, i64 8
-  %.11.i17.3 = load i64, ptr %.10.i16.3, align 8, !noalias !371
-  %.13.i19.3 = load i64, ptr %.35, align 8, !noalias !371
-  %51 = shl i64 %.11.i17.3, 3
-  %52 = mul i64 %51, %.13.i19.3
-  %scevgep126 = getelementptr i8, ptr %36, i64 %52
-  %scevgep127 = getelementptr i8, ptr %scevgep126, i64 %40
-  %scevgep128 = getelementptr i8, ptr %scevgep127, i64 24
-  store double 0.000000e+00, ptr %scevgep128, align 8
-  %.8.i59.3 = load i64, ptr %.7.i, align 8, !noalias !374
-  %.9.i60.3 = inttoptr i64 %.8.i59.3 to ptr
-  %.10.i61.3 = getelementptr i8, ptr %.9.i60.3, i64 112
-  %.11.i62.3 = load i64, ptr %.10.i61.3, align 8, !noalias !374
-  %.13.i64.3 = load i64, ptr %.35, align 8, !noalias !374
-  %53 = shl i64 %.11.i62.3, 3
-  %54 = mul i64 %53, %.13.i64.3
-  %scevgep129 = getelementptr i8, ptr %36, i64 %54
-  %scevgep130 = getelementptr i8, ptr %scevgep129, i64 %40
-  %scevgep131 = getelementptr i8, ptr %scevgep130, i64 24
-  store double 0.000000e+00, ptr %scevgep131, align 8
+  store double 0.000000e+00, ptr %scevgep136, align 8
+  %.8.i58 = load i64, ptr %.7.i, align 8, !noalias !374
+  %.9.i59 = inttoptr i64 %.8.i58 to ptr
+  %.10.i60 = getelementptr i8, ptr %.9.i59, i64 112
+  %.11.i61 = load i64, ptr %.10.i60, align 8, !noalias !374
+  %.13.i63 = load i64, ptr %.35, align 8, !noalias !374
+  %41 = shl i64 %.11.i61, 3
+  %42 = mul i64 %41, %.13.i63
+  %scevgep133 = getelementptr i8, ptr %36, i64 %42
+  %scevgep134 = getelementptr i8, ptr %scevgep133, i64 %40
+  store double 0.000000e+00, ptr %scevgep134, align 8
+  %.8.i13.1 = load i64, ptr %.7.i, align 8, !noalias !371
+  %.9.i14.1 = inttoptr i64 %.8.i13.1 to ptr
+  %.10.i15.1 = getelementptr i8, ptr %.9.i14.1, i64 8
+  %.11.i16.1 = load i64, ptr %.10.i15.1, align 8, !noalias !371
+  %.13.i18.1 = load i64, ptr %.35, align 8, !noalias !371
+  %43 = shl i64 %.11.i16.1, 3
+  %44 = mul i64 %43, %.13.i18.1
+  %scevgep127 = getelementptr i8, ptr %36, i64 %44
+  %scevgep128 = getelementptr i8, ptr %scevgep127, i64 %40
+  %scevgep129 = getelementptr i8, ptr %scevgep128, i64 8
+  store double 0.000000e+00, ptr %scevgep129, align 8
+  %.8.i58.1 = load i64, ptr %.7.i, align 8, !noalias !374
+  %.9.i59.1 = inttoptr i64 %.8.i58.1 to ptr
+  %.10.i60.1 = getelementptr i8, ptr %.9.i59.1, i64 112
+  %.11.i61.1 = load i64, ptr %.10.i60.1, align 8, !noalias !374
+  %.13.i63.1 = load i64, ptr %.35, align 8, !noalias !374
+  %45 = shl i64 %.11.i61.1, 3
+  %46 = mul i64 %45, %.13.i63.1
+  %scevgep130 = getelementptr i8, ptr %36, i64 %46
+  %scevgep131 = getelementptr i8, ptr %scevgep130, i64 %40
+  %scevgep132 = getelementptr i8, ptr %scevgep131, i64 8
+  store double 0.000000e+00, ptr %scevgep132, align 8
+  %.8.i13.2 = load i64, ptr %.7.i, align 8, !noalias !371
+  %.9.i14.2 = inttoptr i64 %.8.i13.2 to ptr
+  %.10.i15.2 = getelementptr i8, ptr %.9.i14.2, i64 8
+  %.11.i16.2 = load i64, ptr %.10.i15.2, align 8, !noalias !371
+  %.13.i18.2 = load i64, ptr %.35, align 8, !noalias !371
+  %47 = shl i64 %.11.i16.2, 3
+  %48 = mul i64 %47, %.13.i18.2
+  %scevgep121 = getelementptr i8, ptr %36, i64 %48
+  %scevgep122 = getelementptr i8, ptr %scevgep121, i64 %40
+  %scevgep123 = getelementptr i8, ptr %scevgep122, i64 16
+  store double 0.000000e+00, ptr %scevgep123, align 8
+  %.8.i58.2 = load i64, ptr %.7.i, align 8, !noalias !374
+  %.9.i59.2 = inttoptr i64 %.8.i58.2 to ptr
+  %.10.i60.2 = getelementptr i8, ptr %.9.i59.2, i64 112
+  %.11.i61.2 = load i64, ptr %.10.i60.2, align 8, !noalias !374
+  %.13.i63.2 = load i64, ptr %.35, align 8, !noalias !374
+  %49 = shl i64 %.11.i61.2, 3
+  %50 = mul i64 %49, %.13.i63.2
+  %scevgep124 = getelementptr i8, ptr %36, i64 %50
+  %scevgep125 = getelementptr i8, ptr %scevgep124, i64 %40
+  %scevgep126 = getelementptr i8, ptr %scevgep125, i64 16
+  store double 0.000000e+00, ptr %scevgep126, align 8
+  %.607.3 = add nuw i64 %.600223226, 4
+  %.8.i13.3 = load i64, ptr %.7.i, align 8, !noalias !371
+  %.9.i14.3 = inttoptr i64 %.8.i13.3 to ptr
+  %.10.i15.3 = getelementptr i8, ptr %.9.i14.3, i64 8
+  %.11.i16.3 = load i64, ptr %.10.i15.3, align 8, !noalias !371
+  %.13.i18.3 = load i64, ptr %.35, align 8, !noalias !371
+  %51 = shl i64 %.11.i16.3, 3
+  %52 = mul i64 %51, %.13.i18.3
+  %scevgep115 = getelementptr i8, ptr %36, i64 %52
+  %scevgep116 = getelementptr i8, ptr %scevgep115, i64 %40
+  %scevgep117 = getelementptr i8, ptr %scevgep116, i64 24
+  store double 0.000000e+00, ptr %scevgep117, align 8
+  %.8.i58.3 = load i64, ptr %.7.i, align 8, !noalias !374
+  %.9.i59.3 = inttoptr i64 %.8.i58.3 to ptr
+  %.10.i60.3 = getelementptr i8, ptr %.9.i59.3, i64 112
+  %.11.i61.3 = load i64, ptr %.10.i60.3, align 8, !noalias !374
+  %.13.i63.3 = load i64, ptr %.35, align 8, !noalias !374
+  %53 = shl i64 %.11.i61.3, 3
+  %54 = mul i64 %53, %.13.i63.3
+  %scevgep118 = getelementptr i8, ptr %36, i64 %54
+  %scevgep119 = getelementptr i8, ptr %scevgep118, i64 %40
+  %scevgep120 = getelementptr i8, ptr %scevgep119, i64 24
+  store double 0.000000e+00, ptr %scevgep120, align 8
   %niter.ncmp.3 = icmp eq i64 %unroll_iter, %.607.3
   br i1 %niter.ncmp.3, label %B622.1.loopexit.unr-lcssa, label %B800.endif.endif
 
@@ -10757,38 +10764,21 @@ B978.lr.ph:
   %55 = getelementptr i64, ptr %arg.impacts, i64 %arg.first
   br label %B978
 
-B1166.endif:
-  %.847 = inttoptr i64 %.837 to ptr
+B1014.endif:
   %.854 = load i64, ptr %.371, align 8
   %.855 = inttoptr i64 %.854 to ptr
-  %.8.i50 = load i64, ptr %.7.i, align 8, !noalias !391
-  %.9.i51 = inttoptr i64 %.8.i50 to ptr
-  %.10.i52 = getelementptr i8, ptr %.9.i51, i64 80
-  %.11.i53 = load i64, ptr %.10.i52, align 8, !noalias !391
-  %.13.i55 = load i64, ptr %.35, align 8, !noalias !391
-  %.14.i56 = mul nsw i64 %.13.i55, %.11.i53
-  %.15.i57 = getelementptr double, ptr %.855, i64 %.14.i56
-  %scevgep90 = getelementptr i8, ptr %.15.i57, i64 %35
-  %.883 = load double, ptr %scevgep90, align 8
+  %.8.i49 = load i64, ptr %.7.i, align 8, !noalias !391
+  %.9.i50 = inttoptr i64 %.8.i49 to ptr
+  %.10.i51 = getelementptr i8, ptr %.9.i50, i64 80
+  %.11.i52 = load i64, ptr %.10.i51, align 8, !noalias !391
+  %.13.i54 = load i64, ptr %.35, align 8, !noalias !391
+  %.14.i55 = mul nsw i64 %.13.i54, %.11.i52
+  %.15.i56 = getelementptr double, ptr %.855, i64 %.14.i55
+  %scevgep79 = getelementptr i8, ptr %.15.i56, i64 %35
+  %.883 = load double, ptr %scevgep79, align 8
   %.884 = fcmp oeq double %.883, 1.000000e+00
-  %"$phi1166.1.2.2.in.v" = select i1 %.884, i64 408, i64 440
-  %"$phi1166.1.2.2.in" = getelementptr i8, ptr %.847, i64 %"$phi1166.1.2.2.in.v"
-  %"$phi1166.1.2.2" = load i64, ptr %"$phi1166.1.2.2.in", align 8
-  %.901 = getelementptr i8, ptr %.847, i64 408
-  store i64 %"$phi1166.1.2.2", ptr %.901, align 8
-  %.908 = load i64, ptr %.371, align 8
-  %.909 = inttoptr i64 %.908 to ptr
-  %.8.i68 = load i64, ptr %.7.i, align 8, !noalias !394
-  %.9.i69 = inttoptr i64 %.8.i68 to ptr
-  %.10.i70 = getelementptr i8, ptr %.9.i69, i64 80
-  %.11.i71 = load i64, ptr %.10.i70, align 8, !noalias !394
-  %.13.i73 = load i64, ptr %.35, align 8, !noalias !394
-  %.14.i74 = mul nsw i64 %.13.i73, %.11.i71
-  %.15.i75 = getelementptr double, ptr %.909, i64 %.14.i74
-  %scevgep89 = getelementptr i8, ptr %.15.i75, i64 %35
-  %.937 = load double, ptr %scevgep89, align 8
-  %.938 = fcmp oeq double %.937, 1.000000e+00
-  br i1 %.938, label %B1252, label %B1362
+  %56 = inttoptr i64 %.837 to ptr
+  br i1 %.884, label %B1140, label %B1252
 }
 
 
@@ -11437,6 +11427,3 @@ attributes #9 = { nounwind }
 !391 = !{!392}
 !392 = distinct !{!392, !393, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
 !393 = distinct !{!393, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}
-!394 = !{!395}
-!395 = distinct !{!395, !396, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29: %retptr"}
-!396 = distinct !{!396, !"_ZN18biped_adrc_kernels7part_ofB4v101B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a10float64_2a24Literal_5bint_5d_2810_29"}

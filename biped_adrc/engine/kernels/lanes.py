@@ -313,10 +313,11 @@ def move_beside(s: Run, walks: Ints, first: int, impacts: Ints) -> None:
         for lane in range(s.lanes):
             if s.team[lane] != 0:
                 r = run_at(s.team[lane])
-                r.count = r.count if part_of(s, s.then, MARK)[lane] == 1.0 else r.kept
                 if part_of(s, s.then, MARK)[lane] == 1.0:
                     leave(s, lane, r, s.then)
                     r.t, impacts[first + lane] = s.then[lane], MOVED
+                else:
+                    r.count = r.kept
 
 
 @unit

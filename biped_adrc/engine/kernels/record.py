@@ -211,6 +211,10 @@ class Run:
     """The event function at t_far."""
     strikes: Array
     """Rows (t, x-, x+) of the impacts."""
+    nodes: Array
+    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), output of `look`) at each integration
+    step and at the end, at a break after what happens there; where a force from outside may jump, before it
+    too."""
     # -- of a team of walks side by side (`kernels.lanes`)
     lanes: int
     """How many they are."""
@@ -231,11 +235,6 @@ class Run:
     ready: Ints
     """Of samples under inputs from outside, for each lane: 1 where its walk may go side by side, 2 once K and
     push have its numbers, else 0."""
-    # -- of each run
-    nodes: Array
-    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), output of `look`) at each integration
-    step and at the end, at a break after what happens there; where a force from outside may jump, before it
-    too."""
 
     if TYPE_CHECKING:
 

@@ -190,13 +190,13 @@ def rendered_c(template: str, words: Mapping[str, object]) -> str:
     return _environment(Path(template).suffix).get_template(f"{template}.j2").render(words)
 
 
-@cache
 def _sine_in_double(texts: Iterable[Written]) -> bool | None:
     """Whether sin or cos is in double also if `real` is float; None where the text has neither."""
     calls = [line for text in texts for line in text.lines if "(sine)" in line]
     return any("F(sine)" not in line for line in calls) if calls else None
 
 
+@cache
 def _environment(suffix: str) -> Environment:
     """Jinja's environment for files with this suffix, made once.
 
