@@ -197,10 +197,10 @@ def test_the_mean_over_a_window_is_that_of_the_force_in_it(walker):
     t = np.array([0.0, 0.1, 0.1, 0.25, 0.25, 0.6])
     n = handmade(walker, t, np.array([1.0, 1.0, 4.0, 4.0, -2.0, -2.0]) * 100.0)
     # row 0: mean F_N over a window of 0.2 s that ends at the node; 1: number of single supports with an impact
-    found = demands(walker, n, 0.2, 1)[0]
+    found = demands(walker, n, 0.2, 1)[0][0]
     # infinite as long as no whole window has passed
     assert found == pytest.approx([*[np.inf] * 3, 65.0 / 0.2, 65.0 / 0.2, -200.0])
-    whole = demands(walker, n, 5.0, 1)[0]
+    whole = demands(walker, n, 5.0, 1)[0][0]
     assert whole == pytest.approx([*[np.inf] * 5, (10.0 + 60.0 - 70.0) / 0.6])
 
 
@@ -363,7 +363,7 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     deep[middle] = -0.002  # below both footholds, that counts
     dipped = replace(s, swing_foot=np.column_stack((s.swing_foot[:, 0], deep)))
     # row 2 of `demands`: the depth of scuffing at each node
-    assert np.max(demands(up, Nodes.of(dipped), 5e-3, 1)[2]) == pytest.approx(0.002)
+    assert np.max(demands(up, Nodes.of(dipped), 5e-3, 1)[0][2]) == pytest.approx(0.002)
 
 
 # -- the first violation ---------------------------------------------------------------------------
@@ -566,7 +566,7 @@ def test_the_first_window_after_a_touchdown_counts_at_every_touchdown(biped, gai
     which the clock reaches up to round-off only; before, no window is whole and the mean is infinite."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
     s = ba.walk(walker, gait, impacts=6).signals
-    found = demands(walker, Nodes.of(s), 5e-3, 6)[0]
+    found = demands(walker, Nodes.of(s), 5e-3, 6)[0][0]
     for step in range(1, 7):
         (rows,) = np.nonzero(s.step == step)
         after = s.t[rows] - s.t[rows[0]]

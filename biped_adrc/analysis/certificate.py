@@ -23,9 +23,9 @@ compute these numbers from the nodes; `feasibility` summarises them for the walk
 """
 
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -37,6 +37,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
 from biped_adrc.model.robots.urdf import Joint
@@ -57,7 +58,7 @@ REASONS = {
 """Reason why a single support is not feasible, a key of `Support.infeasible` -> its field of `Support`."""
 AT_NODES = ("normal_force", "friction", "scuffing", "torque", "rate", "range")
 """Reasons whose numbers are those of `ground_force.demands`."""
-_OF_JOINTS = ("torque", "rate", "range")
+OF_JOINTS = ("torque", "rate", "range")
 """Reasons whose number belongs to one joint, the one in which it is largest."""
 
 
@@ -99,10 +100,10 @@ class Support(Shown):
         """The numbers that are not within their limits: name in `REASONS` -> sentence about it; empty for a
         feasible step.
         """
+        k, of = self.limits, self.joints.get
         # of(name): the joint of a number; None where it belongs to no joint
-        k, numbers = self.limits, {name: getattr(self, x) for name, x in REASONS.items()}
-        broken, of = {i: x for i, x in numbers.items() if not keeps(i, x, k)}, self.joints.get
-        return {name: violation(name, x, k, of(name)) for name, x in broken.items()}
+        numbers = ((name, getattr(self, field)) for name, field in REASONS.items())
+        return {i: violation(i, x, k, of(i)) for i, x in numbers if not keeps(i, x, k)}
 
 
 @dataclass(frozen=True)
@@ -151,14 +152,19 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
     its own limit. Scuffing, angles beyond a range and missed stones have to be 0, rates are shares of their
     limits. The friction cone is wider by ROUND_OFF.
     """
-    cone = (1.0 + ROUND_OFF) * k.friction
     if name == "normal_force":
         return x > 0.0
-    if name == "friction":
-        return (x <= cone) | (x == math.inf)
+    fine = x <= _most(k)[name]
+    return fine | (x == math.inf) if name == "friction" else fine
+
+
+@cache
+def _most(k: KnownLimits) -> dict[str, float]:
+    """The largest number of each kind in `REASONS`, but of the normal force, that is within the limits."""
+    cone = (1.0 + ROUND_OFF) * k.friction
     # SLIP: largest distance that a foot may slip
-    most = {"torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
-    return x <= most.get(name, 0.0)
+    most = {"friction": cone, "torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
+    return dict.fromkeys(REASONS, 0.0) | most
 
 
 def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
@@ -183,39 +189,26 @@ def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
     }[name]
 
 
-def limit_series(
+def at_ends(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
-) -> tuple[dict[str, Array], Callable[[str, int], Joint | None]]:
-    """The numbers that limits apply to, by name in `REASONS`, and the function joint(name, i).
-
-    The numbers are at the nodes (K,), but those of stones and impulses at the ends of the single supports (S,).
-    joint(name, i): the joint that has the torque, rate or range at node i; None for another name, or without
-    motors. Slips are not among the numbers. Where no window of the mean force ends at a node, its normal force
-    is inf and its friction ratio -inf; the ratio is -inf too where the mean force does not push.
+) -> dict[str, Array]:
+    """The numbers that limits apply to at the ends of the single supports (S,), by name in `REASONS`: of stones
+    and impulses. Where friction is not limited, on soft ground, impulses are 0.
 
     n: the nodes. k: the limits. impacts: number of single supports that ended in an impact. after (2,) [N s]:
-    momentum just after the impact with which the walk ends, as no node follows it, else None. Where friction is
-    not limited, on soft ground, impulses are 0.
+    momentum just after the impact with which the walk ends, as no node follows it, else None.
     """
-    at_ends = {"stones": missed_stones(walker, n, impacts), IMPULSE: np.zeros(len(n.steps))}
-    if k.friction < math.inf:
-        at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
-    # rows 0 to 5: the numbers, in the order of AT_NODES; rows 6 to 8: the joint that has each of the last three
-    needed = demands(walker, n, k.window, impacts)
-    # _OF_JOINTS: the numbers that belong to one joint: torque, rate, range
-    which = dict(zip(_OF_JOINTS, needed[len(AT_NODES) :], strict=True))
-    # joints with the angles q_1 .. q_p in single supports of odd number; in even ones the legs are swapped
-    own = walker.plant.motor_joints[1]
+    limited = k.friction < math.inf
+    impulses = impulse_ratios(walker, n, impacts, after) if limited else np.zeros(len(n.steps))
+    return {"stones": missed_stones(walker, n, impacts), IMPULSE: impulses}
 
-    def joint(name: str, i: int) -> Joint | None:
-        if name not in which or not n.p:
-            return None
-        j = int(which[name][i])
-        # % p: an entry of swap from p on is joint swap - p with the other sign
-        return own[j if n.at.step[i] % 2.0 else walker.plant.swap[j] % n.p]
 
-    # not strict: the rows of the joints are left out
-    return dict(zip(AT_NODES, needed, strict=False)) | at_ends, joint
+def joint_of(plant: Biped, i: float, step: float) -> Joint:
+    """The joint of the URDF with the angle i, from 0, in the single support of this number."""
+    # q_1 .. q_p are angles of these joints in odd single supports; in even ones the legs are swapped
+    # % p: an entry of swap from p on is joint swap - p with the other sign
+    own = plant.motor_joints[1]
+    return own[int(i) if step % 2.0 else plant.swap[int(i)] % plant.p]
 
 
 def supports(
@@ -232,29 +225,26 @@ def supports(
     no node follows it, else None. slips: slip of each single support on soft ground [m], in place of the
     friction cone; None on the rigid plant.
     """
-    # first: first node of each single support; worst: the numbers at the nodes, by name in REASONS
     k = k if slips is None else k._replace(friction=math.inf)
-    first, t = n.edges[:-1], n.at.t
-    worst, joint = limit_series(walker, n, k, impacts, after)
-    # the joint with the largest torque, rate and angle beyond its range (_OF_JOINTS) in each single support,
-    # which has the nodes a to b - 1
-    joints = [
-        {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in _OF_JOINTS}
-        for a, b in pairwise(n.edges)
-    ]
-    # from here on `worst` has one number per single support in place of one per node
-    # AT_NODES: names of the numbers that `demands` computes at each node
-    for name in AT_NODES:
-        extreme = np.minimum if name == "normal_force" else np.maximum
-        worst[name] = extreme.reduceat(worst[name], first)
-    # `limit_series` has no mean force as F_N = inf and ratio = -inf, a mean that does not push as ratio -inf
-    # alone. So a largest ratio of -inf says that no mean force pushed; a least F_N of inf says that there was
-    # none, in a single support too short for it. Then the friction is 0, since nothing is to be judged; else
-    # the ground never pushed, and it is infinite.
+    t, plant, count = n.at.t, walker.plant, len(n.steps)
+    # rows 0 to 5: the numbers of AT_NODES; rows 6 to 8: the joint that has each of the last three
+    _, needed = demands(walker, n, k.window, impacts)
+    # not strict: the rows of the joints are left out
+    worst = dict(zip(AT_NODES, needed, strict=False)) | at_ends(walker, n, k, impacts, after)
+    # `demands` has no mean force as F_N = inf and ratio = -inf, a mean that does not push as ratio -inf alone.
+    # So a largest ratio of -inf says that no mean force pushed; a least F_N of inf says that there was none, in
+    # a single support too short for it. Then the friction is 0, since nothing is to be judged; else the ground
+    # never pushed, and it is infinite.
     never = np.where(worst["normal_force"] == np.inf, 0.0, np.inf)
     worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
-    worst["slip"] = np.zeros(len(first)) if slips is None else np.asarray(slips, dtype=float)
-    numbers = (t[n.last] - t[first], *(worst[name] for name in REASONS))
+    worst["slip"] = np.zeros(count) if slips is None else np.asarray(slips, dtype=float)
+    # OF_JOINTS: the numbers that belong to one joint: torque, rate, range
+    which = needed[len(AT_NODES) :].T.tolist() if n.p else [()] * count
+    joints = [
+        {name: joint_of(plant, i, step) for name, i in zip(OF_JOINTS, each, strict=False)}
+        for step, each in zip(n.steps, which, strict=True)
+    ]
+    numbers = (t[n.last] - t[n.edges[:-1]], *(worst[name] for name in REASONS))
     columns: list[Any] = [n.steps, joints, *(x.tolist() for x in numbers)]
     names, rows = ("step", "joints", "duration", *REASONS.values()), zip(*columns, strict=True)
     return tuple(Support(**dict(zip(names, row, strict=True)), limits=k) for row in rows)

@@ -33,8 +33,8 @@ SHORTEST = 1e-9
 """Shortest single support with a mean force [s]."""
 T, STEP, OUTSIDE, ERROR, U, Q, V, MOMENTUM, FOOT = range(9)
 """Columns in the order of `ground_force.NODE_COLUMNS`; `at` says where in a row each begins."""
-WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, FALLS = 0, 1, 2, 3, 4, 6, 8, 9
-"""Where each part of `ground_force.Known` begins; its joints stand behind the S numbers of FALLS."""
+WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, JOINTS = 0, 1, 2, 3, 4, 6, 8, 9
+"""Where each part of `ground_force.Known` begins; behind its joints stand the S falls of the ground."""
 
 
 # numba alone compiles this text, and Python never runs it. The imports from the kernels are left out of the
@@ -61,6 +61,23 @@ def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -
                 out[j * count], out[(3 + j) * count] = x, i
 
 
+@inner
+def keep_worst(numbers: Array, count: int, worst: Array, begins: bool) -> None:
+    """Keep what is worse than in the nodes before in `worst` (9,): the least F_N, the largest of the five
+    numbers after it, and the joints of the last three. A NaN is the worst.
+
+    numbers: pointer to the node's place in the first of nine rows of `count` numbers. begins: whether it is
+    the first node of its single support.
+    """
+    for j in range(6):
+        x, y = numbers[j * count], worst[j]
+        worse = x < y if j == 0 else x > y
+        if begins or ((worse or x != x) and y == y):
+            worst[j] = x
+            if j > 2:  # of a joint: torque, rate or angle
+                worst[3 + j] = numbers[(3 + j) * count]
+
+
 @unit
 def demands(
     rows: Array,
@@ -72,6 +89,7 @@ def demands(
     impacts: int,
     known: Array,
     out: Array,
+    worst: Array,
 ) -> None:
     """Write for each node to out (11, K): F_N [N] and |F_T| / F_N of the mean force in the window up to it,
     F_N out of the ground and F_T along it; depth of the swing foot below the ground [m]; the six numbers of
@@ -79,14 +97,15 @@ def demands(
 
     rows (K, width): the nodes. at: where in a row each column begins. first (S + 1,): first node of each of the
     S = `supports` single supports, and K; the first `impacts` of them ended in an impact. known: constants of
-    the walk, `ground_force.Known`, each at its place WINDOW, WEIGHT and so on.
+    the walk, `ground_force.Known`, each at its place WINDOW, WEIGHT and so on, and the S falls of the ground.
+    worst (S, 9): here `keep_worst` keeps the worst of each single support.
     """
     count, before, foot, P = first[supports], rows, at[FOOT], at[MOMENTUM]
     F_N, ratio, depth = out, shift(out, count), shift(out, 2 * count)
     P_x, P_z, pushed_x, pushed_z = shift(out, 9 * count), shift(out, 10 * count), 0.0, 0.0
     window, weight, tangent = known[WINDOW], known[WEIGHT], known[TANGENT]
     ends, same, along, normal = known[NEAR], known[SAME], shift(known, ALONG), shift(known, NORMAL)
-    joints = shift(known, FALLS + supports)
+    joints, falls = shift(known, JOINTS), shift(known, JOINTS + 6 * p)
     # i: last node before a window begins. above: whether the foot was above the ground in this single support.
     # near, far: times since its start between which a depth of the swing foot counts, since for the share
     # `ends` of its duration at either end the foot may touch; without an impact at its end the depth there
@@ -120,14 +139,15 @@ def demands(
                 F_N[k] = F_x * normal[0] + F_z * normal[1]
                 if not F_N[k] <= 0.0:  # so that NaN goes on into the ratio
                     ratio[k] = abs(F_x * along[0] + F_z * along[1]) / F_N[k]
-            # of the swing foot above the ground at the height of the lower foothold; known[FALLS + s]: by how
-            # much the ground at the end of this single support is lower than at its start
-            height = row[foot + 1] + tangent * row[foot] + known[FALLS + s]
+            # of the swing foot above the ground at the height of the lower foothold; falls[s]: by how much
+            # the ground at the end of this single support is lower than at its start
+            height = row[foot + 1] + tangent * row[foot] + falls[s]
             if height > 0.0:
                 above = True
             elif above and near < since < far:
                 # 0.0 - height is never -0.0, as -height is for 0
                 depth[k] = 0.0 - height
+            keep_worst(shift(out, k), count, shift(worst, 9 * s), k == first[s])
 
 
 @unit

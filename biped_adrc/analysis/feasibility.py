@@ -24,14 +24,16 @@ import numpy as np
 from biped_adrc.analysis.certificate import (
     AT_NODES,
     IMPULSE,
+    OF_JOINTS,
     Support,
     after_last_impact,
+    at_ends,
     ended_in_impact,
+    joint_of,
     keeps,
-    limit_series,
     violation,
 )
-from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.analysis.ground_force import Nodes, demands
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.shown import Shown
@@ -163,16 +165,20 @@ def first_violation(
     """
     # the first violation of each kind; a number that is one per single support counts at its end
     result = []
-    # numbers: what the limits apply to, by the limit's name; joint(name, i): the joint that has it at node i,
-    # or None where the number belongs to no joint
-    numbers, joint = limit_series(walker, n, k, impacts, after)
+    # rows 0 to 5: the numbers of AT_NODES; rows 6 to 8: the joint that has each of the last three
+    needed, _ = demands(walker, n, k.window, impacts)
+    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True)) if n.p else {}
+    # numbers: what the limits apply to, by the limit's name; not strict: the rows of joints are left out
+    numbers = dict(zip(AT_NODES, needed, strict=False)) | at_ends(walker, n, k, impacts, after)
     for name, x in numbers.items():
         # [:1]: the first only, if there is any
         for i in np.flatnonzero(~keeps(name, x, k))[:1]:
             # AT_NODES: names of the numbers that exist at each node, others at the end of a support
             at = i if name in AT_NODES else n.last[i]
+            has = name in which  # whether the number belongs to one joint
+            joint = joint_of(walker.plant, which[name][i], n.at.step[i]) if has else None
             support = int(np.searchsorted(n.last, at))
-            text = violation(name, x[i], k, joint(name, at))
+            text = violation(name, x[i], k, joint)
             result.append(Violation(float(n.at.t[at]), support, text))
     return min(result, default=None, key=lambda one: one.t)
 

@@ -18,11 +18,13 @@ import numpy as np
 from biped_adrc.analysis.signals import Signals, nodes_before_fall
 from biped_adrc.closed_loop.instant_signals import NodeRow, StepReading, node_layout
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.once import once
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.tree import flatten
-from biped_adrc.core.types import Array, Indices
+from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.engine.kernels.load import compiled
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS
 
@@ -73,7 +75,7 @@ class Nodes:
         columns = _columns(self.n, self.p)
         return self.rows.ctypes.data, self.rows.shape[1], columns.ctypes.data, self.p
 
-    @property
+    @cached_property
     def steps(self) -> range:
         """Numbers of the S single supports."""
         return range(int(self.at.step[0]), int(self.at.step[-1]) + 1)
@@ -114,10 +116,19 @@ class Known(NamedTuple):
     """Unit vector out of it (2,)."""
     same: float
     """By how much two times of one instant may differ [s]."""
-    falls: Array
-    """Depth of the ground at the end of each single support below that at its start (S,) [m], 0 if higher."""
     joints: Array
     """In even and in odd single supports (2, p, 3): largest rate [rad/s], both ends of the range [rad]."""
+
+
+@once
+def _known(plant: Biped, slope: float, window: float) -> Array:
+    """The numbers of `Known` in their order, read-only."""
+    # motor_joints: the joints in even single supports, then those in odd ones, where the other leg stands
+    joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
+    along, normal = map(np.array, ground_axes(slope))
+    # ENDS: share of the step at either end, where the foot may touch the ground
+    head = window, plant.weight, math.tan(slope), ENDS
+    return read_only(flatten(Known(*head, along, normal, SAME_INSTANT, joints)))
 
 
 # `load` joins these texts in this order: a decorator has to stand before the function that uses it.
@@ -128,19 +139,19 @@ LOOPS = (
 
 
 def _loops() -> Any:
-    """The functions `demands` and `totals` of `analysis.demands`, compiled, with 9 and 6 arguments, arrays by
-    address.
-    """
+    """The functions of `analysis.demands`, compiled, which get arrays by address."""
     # LOOPS: the modules with these functions; the numbers count their arguments
-    return compiled(LOOPS, demands=9, totals=6)
+    return compiled(LOOPS, demands=10, totals=6)
 
 
-def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
-    """Compute what each of the K nodes `n` of a walk demands of ground and joints: rows (9, K).
+def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> tuple[Array, Array]:
+    """Compute what each of the K nodes `n` of a walk demands of ground and joints, rows (9, K), and the worst
+    of them in each of the S single supports (9, S).
 
     0, 1: F_N [N] and |F_T| / F_N of the mean ground force over the window [s] that ends at the node; 2: depth
     of the swing foot below the ground [m]; 3, 4, 5: over the joints the largest |u_i| [N m], |q_i'| over its
-    limit [1], and angle beyond its range [rad]; 6, 7, 8: the joint, from 0, that has each of these three.
+    limit [1], and angle beyond its range [rad]; 6, 7, 8: the joint, from 0, that has each of these three. The
+    worst is the least F_N and the largest of the others, or NaN.
 
     Where no window ends at a node, F_N is inf and the ratio -inf; the ratio is -inf too where the ground does
     not push. In a single support shorter than the window the mean is over all of it. The ground has the height
@@ -148,23 +159,16 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     may come from lower ground, and not near the ends of a single support. Only the first `impacts` single
     supports ended in an impact; of the others the end counts too.
     """
-    slope, plant = walker.ground_slope, walker.plant
-    along, normal = np.array(ground_axes(slope))
-    falls = np.array([max(walker.drop(step), 0.0) for step in n.steps])
-    # motor_joints: the joints in even single supports, then those in odd ones, where the other leg stands
-    joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
-    # ENDS: share of the step at either end, where the foot may touch the ground
-    known = Known(
-        window, plant.weight, math.tan(slope), ENDS, along, normal, SAME_INSTANT, falls, joints
-    )
-    # the compiled loop gets addresses, so `numbers` and `result` need names: they have to live until it
-    # returns. `flatten` puts all numbers of `known` in one array, in their order
-    result, numbers = np.empty((11, len(n.rows))), flatten(known)
-    first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
+    # how much the ground at the end of each single support is lower than at its start [m], 0 if higher
+    falls = [max(walker.drop(step), 0.0) for step in n.steps]
+    known = np.concatenate((_known(walker.plant, walker.ground_slope, window), falls))
+    # the compiled loop gets addresses, so what they lead to needs names: it has to live until the loop returns
+    result, worst = np.empty((11, len(n.rows))), np.empty((len(falls), 9))
+    first, *more = (x.ctypes.data for x in (n.edges, known, result, worst))
     # _loops: the compiled functions of `analysis.demands`
-    _loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
+    _loops().demands(*n.pointers, first, len(falls), impacts, *more)
     # the last two rows are intermediate results of the loop
-    return result[:9]
+    return result[:9], worst.T
 
 
 def totals(n: Nodes) -> list[float]:

@@ -168,6 +168,7 @@ def unit_in(kind: str, name: object, value: str, usual: str) -> str:
     return next(stated, {}).get(value, usual)
 
 
+@lru_cache(maxsize=1000)
 def _plain(name: str) -> str:
     """A name as it is compared: small letters, spaces for hyphens and underscores."""
     return name.casefold().replace("-", " ").replace("_", " ").strip()

@@ -299,6 +299,7 @@ class Ready:
         s, at = flatten(w.law.initial_state(self.begin)), 2 * w.plant.n
         if not np.all(np.isfinite(s)):
             return None
+        vars(w)["layout"] = self.case.walker.layout_of(self.x)  # equal for laws that are alike
         x = self.x.copy()
         x[at : at + len(s)] = s
         return replace(self, case=case, x=x, compiled=compiled)

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, cast
 
 import numpy as np
@@ -47,7 +47,6 @@ from biped_adrc.model.ground import SoftGround, Steps, Stones, stepped, uneven_g
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
-from biped_adrc.scenario.hardware import EncoderRecord
 from biped_adrc.scenario.push import RANDOM, Push
 from biped_adrc.scenario.records import Misfit, all_taken, named_part
 from biped_adrc.scenario.scenario import Scenario, drawn
@@ -181,33 +180,42 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     gait = scene.walked
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
-    # relative errors (n,) [1] of the rates after impact; (0,) without an error of the impact map
-    gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
+    # relative errors (n,) [1] of the rates after impact; () without an error of the impact map
+    gain = impact_error(drawn(s, "impact"), width, biped.n).tolist() if width else ()
     course = stones(s)
-    timing: ContinuousTime | SampledTime = ContinuousTime()
-    if hardware.period is not None:
-        # a clock restarts at impact only if the controller knows the impact at once, without a detector
-        ideal = hardware.touchdown.name is None
-        timing = SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known)
-    imperfect = hardware.rate_limit or hardware.lag  # the motors' torque follows the command late
+    # a clock restarts at impact only if the controller knows the impact at once, without a detector
+    clock = hardware.period, hardware.touchdown.name is None, hardware.delay, hardware.delay_known
     return Walker(
         plant,
         scene.controller(s, course.lengths if course else ()),
         disturbances(s, biped, gait.period, plant),
-        timing,
+        _timing(*clock),
         model=None if plant is biped else biped,
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,
         slope=scene.slope(s),
         ground_steps=_ground(s),
         sensors=sensors(s),
-        motors=Motors(hardware.rate_limit, hardware.lag) if imperfect else None,
+        motors=_motors(hardware.rate_limit, hardware.lag),
         touchdown=_touchdown(s, gait),
-        impact_gain=tuple(gain.tolist()),
+        impact_gain=tuple(gain),
         stones=course,
         runaway_speed=s.run.runaway_speed,
         runaway_torque=s.run.runaway_torque,
     )
+
+
+# walks of a study share these, so that they are compared by identity
+@lru_cache(maxsize=64)
+def _timing(period: float | None, *more: Any) -> ContinuousTime | SampledTime:
+    """Continuous time without a period [s], else sampled time; more: the other fields of `SampledTime`."""
+    return ContinuousTime() if period is None else SampledTime(period, *more)
+
+
+@lru_cache(maxsize=64)
+def _motors(rate_limit: float | None, lag: float) -> Motors | None:
+    """Motors with this limit of the torque's rate [N m/s] and this lag [s]; None without both."""
+    return Motors(rate_limit, lag) if rate_limit or lag else None
 
 
 def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
@@ -256,7 +264,7 @@ def sensors(s: Scenario) -> Sensor | None:
     """
     e, more, encoders = s.hardware.encoders, s.hardware.sensor, None
     # a filter alone is no sensor: it smooths differences of angles, which are another value of the record
-    if e != EncoderRecord(filter_time=e.filter_time):
+    if e.record().keys() - {"filter_time"}:
         # None: the angle of the pitch has the resolution of the joints
         noise = (e.noise, e.pitch_noise, e.rate_noise)
         encoders = Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
@@ -383,6 +391,7 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
             raise Misfit(f"pushes.{i}.{name}", f"the push '{push.shape}' {why}")
     known = {
         **window(s, i, period),
+        "seed": drawn(s, "noise", i) if "seed" in accepted else None,
         "rise": push.rise,
         "force": tuple(along[:2].tolist()),
         "amplitude": _torques(s, i, biped) if push.link is None else along,
@@ -401,7 +410,7 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
 
 def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
     """The arguments of push i that say when it acts: step (number of its single support), start and stop [s],
-    frequency and bandwidth [Hz], and the seed of noise, by name.
+    frequency and bandwidth [Hz], by name.
 
     A push counts from the start of its single support and ends with it at the latest. One that goes on over
     impacts has step None and counts from the start of the walk: its single support is taken to begin when the
@@ -423,7 +432,6 @@ def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
         # a sine takes the frequency, noise the same number as its bandwidth
         "frequency": push.frequency,
         "bandwidth": push.frequency,
-        "seed": drawn(s, "noise", i),
     }
 
 

@@ -98,8 +98,10 @@ class HardwareRecord(Record):
         the torque limit and the plant's friction. pydantic calls it when all fields are set.
         """
         # Record.record also has the values that the profile filled in, the `record` of this class does not
+        if self.period is not None:
+            return self
         idle = flat(Record.record(self)).keys() - {"torque_limit", "friction", "profile"}
-        if self.period is None and idle:
+        if idle:
             raise Misfit(min(idle), "does nothing in continuous time; give hardware.period too")
         return self
 

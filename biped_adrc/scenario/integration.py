@@ -73,6 +73,9 @@ DECIDES = 1e-7
 rounding. Without comparisons (encoder counts, limits) the distance grew 400 times at most, for 22 controllers
 and robots, so this bound of 1e5 times is far above that."""
 
+# walks of a study share these, so that they are compared by identity
+_USUAL, _WITH_HARDWARE = RK4(), RK4(HARDWARE_STEP)
+
 
 def default_method(walker: Walker) -> OneStepMethod:
     """The integration method for a walker: the exponential one at 0.5 ms where `Walker.split` gives a linear
@@ -82,10 +85,10 @@ def default_method(walker: Walker) -> OneStepMethod:
     an error of the motion, and where the controller's states are so fast that 1 ms would be unstable, such as
     those of a short delay. Both take a shorter one where static friction acts on little inertia.
     """
-    method: Exponential | RK4 = Exponential() if walker.split(Mode()) is not None else RK4()
+    method: Exponential | RK4 = _USUAL if walker.split(Mode()) is None else Exponential()
     hardware = (walker.sensors, walker.motors, walker.torque_limit)
     if walker.sampled and any(x is not None for x in hardware):
-        method = RK4(HARDWARE_STEP)
+        method = _WITH_HARDWARE
     # STABLE is for the decision; the new step has h rate = 1, well inside RK4's region of stability
     if isinstance(method, RK4) and method.h * (rate := rate_of_law(walker)) >= STABLE:
         method = RK4(1.0 / rate)

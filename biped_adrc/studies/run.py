@@ -168,8 +168,9 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     raised before the first one, has neither errors nor torques.
     """
     s, walker, run, status = t.scenario, t.case.walker, walked.trajectory, walked.status.name
-    # NO_WALK: statuses of what was no walk
     plant = walker.plant
+    n = None if walked.table is None else Nodes(walked.table, plant.n, plant.p)
+    # NO_WALK: statuses of what was no walk
     row: WalkRow = {
         "status": status,
         "detail": walked.detail,
@@ -177,7 +178,7 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
         "impacts": walked.impacts,
         "t_end": walked.t_end,
         "engine": walked.engine,
-        **_pace(t, walked),
+        **_pace(t, walked, n),
     }
     if status not in NO_WALK:
         # until `counted` has looked at the nodes: not feasible, as if all limits, named in REASONS, were broken
@@ -188,10 +189,10 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     # signals at the nodes: from the whole run, or from the table that the compiled walk filled
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
-    elif walked.table is not None:
-        # n: nodes; k: limits as numbers; after (2,) [N s]: momentum after the last impact, for its impulse, if
-        # the walk ends with that impact
-        n, k, after = Nodes(walked.table, plant.n, plant.p), limits(s).of(plant.description), None
+    elif n is not None:
+        # k: limits as numbers; after (2,) [N s]: momentum after the last impact, for its impulse, if the walk
+        # ends with that impact
+        k, after = limits(s).of(plant.description), None
         if walked.status is Status.COMPLETED:
             # q and q', the first 2 n numbers of x+
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
@@ -265,17 +266,20 @@ def _on_the_ground(walk: Walk) -> WalkRow:
     }
 
 
-def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
+def _pace(t: Trial, walked: BatchWalk, n: Nodes | None) -> WalkRow:
     """Distance [m], mean speed and speed of the last two walking steps [m/s], and the mean speed's difference
     from the gait's speed, as a share of it, over the walking steps that ended in an impact. Without an impact
-    the distance is 0 and there is no speed.
+    the distance is 0 and there is no speed. n: the nodes, if the walk has a table.
     """
     if walked.impacts == 0:
         return {"distance": 0.0}
     plant, gait = t.case.walker.plant, t.scene.walked
     # x_minus: states just before the impacts, of which the first n numbers are q; times: start and impacts [s].
     # length of a step: x of the swing foot from the stance foot [m], horizontal on any slope
-    steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
+    if n is None:
+        steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
+    else:
+        steps = n.at.reading.swing_foot[n.last[: walked.impacts], 0].tolist()
     times = [walked.t_start, *walked.times.tolist()]
     speed = sum(steps) / (times[-1] - times[0])
     change = speed / (float(t.scene.biped.swing_foot(gait.q_minus)[0]) / gait.period) - 1.0

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from concurrent import futures
 from dataclasses import dataclass, field
@@ -126,10 +127,11 @@ class Runner:
         count: number of points, `total` if None, which decides the size of chunks. Raises OutputError, and
         WorkersError where MOST_CRASHED workers die one after the other.
         """
-        workers = self.crew.count
-        # at least four chunks for each worker, so that none waits long for the last one
+        workers, count = self.crew.count, self.total if count is None else count
+        # rounds: chunks for each worker, at least four, so that none waits long for the last one
         # LARGEST_CHUNK walks; _AHEAD chunks for each worker
-        size = max(1, min(LARGEST_CHUNK, (self.total if count is None else count) // (4 * workers)))
+        rounds = max(4, math.ceil(count / (workers * LARGEST_CHUNK)))
+        size = max(1, math.ceil(count / (workers * rounds)))
         missing = self._missing(iter(points))
         # _send and _collect return points whose worker died, which _again walks one by one; mostly none
         while part := tuple(itertools.islice(missing, size)):

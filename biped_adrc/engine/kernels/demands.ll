@@ -1,323 +1,341 @@
-; sources 6d55c499d48507fd8dc19962c7290ab5, text 205fa0802ac65115998e935cb777fcc0
+; sources 56b5926446519c62237de8d402538bfc, text 3ba5279c93554d25d2ac78fcbbf1e34c
 
 
-@_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v88B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v87B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v60B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6totalsB4v123B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10keep_worstB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6totalsB4v124B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a = weak local_unnamed_addr global ptr null
 
 
-define i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.first, i64 %arg.supports, i64 %arg.impacts, ptr readonly %arg.known, ptr %arg.out) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.first, i64 %arg.supports, i64 %arg.impacts, ptr readonly %arg.known, ptr %arg.out, ptr %arg.worst) local_unnamed_addr #0 {
 B0.endif:
-  %.674 = alloca ptr, align 8
-  store ptr null, ptr %.674, align 8
+  %.673 = alloca ptr, align 8
+  store ptr null, ptr %.673, align 8
   %excinfo.2 = alloca ptr, align 8
   store ptr null, ptr %excinfo.2, align 8
-  %.30 = getelementptr i64, ptr %arg.first, i64 %arg.supports
-  %.31 = load i64, ptr %.30, align 8
-  %.33 = getelementptr i8, ptr %arg.at, i64 64
-  %.34 = load i64, ptr %.33, align 8
-  %.36 = getelementptr i8, ptr %arg.at, i64 56
-  %.37 = load i64, ptr %.36, align 8
-  %.61 = getelementptr double, ptr %arg.out, i64 %.31
-  %.65.idx = shl i64 %.31, 4
-  %.65 = getelementptr i8, ptr %arg.out, i64 %.65.idx
-  %.79.idx = mul i64 %.31, 72
-  %.79 = getelementptr i8, ptr %arg.out, i64 %.79.idx
-  %.83.idx = mul i64 %.31, 80
-  %.83 = getelementptr i8, ptr %arg.out, i64 %.83.idx
+  %.1167 = alloca ptr, align 8
+  store ptr null, ptr %.1167, align 8
+  %excinfo.5 = alloca ptr, align 8
+  store ptr null, ptr %excinfo.5, align 8
+  %.31 = getelementptr i64, ptr %arg.first, i64 %arg.supports
+  %.32 = load i64, ptr %.31, align 8
+  %.34 = getelementptr i8, ptr %arg.at, i64 64
+  %.35 = load i64, ptr %.34, align 8
+  %.37 = getelementptr i8, ptr %arg.at, i64 56
+  %.38 = load i64, ptr %.37, align 8
+  %.62 = getelementptr double, ptr %arg.out, i64 %.32
+  %.66.idx = shl i64 %.32, 4
+  %.66 = getelementptr i8, ptr %arg.out, i64 %.66.idx
+  %.80.idx = mul i64 %.32, 72
+  %.80 = getelementptr i8, ptr %arg.out, i64 %.80.idx
+  %.84.idx = mul i64 %.32, 80
+  %.84 = getelementptr i8, ptr %arg.out, i64 %.84.idx
   %.106 = load double, ptr %arg.known, align 8
-  %.108 = getelementptr i8, ptr %arg.known, i64 8
-  %.109 = load double, ptr %.108, align 8
-  %.111 = getelementptr i8, ptr %arg.known, i64 16
-  %.112 = load double, ptr %.111, align 8
-  %.123 = getelementptr i8, ptr %arg.known, i64 24
-  %.124 = load double, ptr %.123, align 8
-  %.126 = getelementptr i8, ptr %arg.known, i64 64
-  %.127 = load double, ptr %.126, align 8
-  %0 = getelementptr double, ptr %arg.known, i64 %arg.supports
-  %.154 = getelementptr i8, ptr %0, i64 72
-  %.240218.not = icmp slt i64 %arg.supports, 1
-  br i1 %.240218.not, label %common.ret, label %B548.lr.ph
+  %.107 = getelementptr i8, ptr %arg.known, i64 8
+  %.108 = load double, ptr %.107, align 8
+  %.109 = getelementptr i8, ptr %arg.known, i64 16
+  %.110 = load double, ptr %.109, align 8
+  %.120 = getelementptr i8, ptr %arg.known, i64 24
+  %.121 = load double, ptr %.120, align 8
+  %.122 = getelementptr i8, ptr %arg.known, i64 64
+  %.123 = load double, ptr %.122, align 8
+  %.146 = getelementptr i8, ptr %arg.known, i64 72
+  %.idx = mul i64 %arg.p, 48
+  %0 = getelementptr i8, ptr %arg.known, i64 %.idx
+  %.150 = getelementptr i8, ptr %0, i64 72
+  %.239232.not = icmp slt i64 %arg.supports, 1
+  br i1 %.239232.not, label %common.ret, label %B596.lr.ph
 
-B548.lr.ph:
-  %.377 = fsub double 1.000000e+00, %.124
-  %.idx = mul i64 %.31, 24
-  %1 = getelementptr i8, ptr %arg.out, i64 %.idx
+B596.lr.ph:
+  %.376 = fsub double 1.000000e+00, %.121
+  %.idx195 = mul i64 %.32, 24
+  %1 = getelementptr i8, ptr %arg.out, i64 %.idx195
   %2 = shl i64 %arg.width, 3
-  %sunkaddr54 = getelementptr i8, ptr %arg.known, i64 48
-  %sunkaddr55 = getelementptr i8, ptr %arg.known, i64 56
-  %sunkaddr63 = getelementptr i8, ptr %arg.known, i64 32
-  %sunkaddr64 = getelementptr i8, ptr %arg.known, i64 40
-  br label %B548.endif
+  %sunkaddr72 = getelementptr i8, ptr %arg.known, i64 48
+  %sunkaddr73 = getelementptr i8, ptr %arg.known, i64 56
+  %sunkaddr80 = getelementptr i8, ptr %arg.known, i64 32
+  %sunkaddr81 = getelementptr i8, ptr %arg.known, i64 40
+  br label %B596.endif
 
-B546.loopexit:
-  %before.2.1.lcssa = phi ptr [ %before.3.0221, %B548.endif ], [ %.564, %B2209 ]
-  %pushed_x.2.1.lcssa = phi double [ %pushed_x.3.0222, %B548.endif ], [ %.599, %B2209 ]
-  %pushed_z.2.1.lcssa = phi double [ %pushed_z.3.0223, %B548.endif ], [ %.618, %B2209 ]
-  %exitcond.not = icmp eq i64 %.253, %arg.supports
-  br i1 %exitcond.not, label %common.ret, label %B548.endif
+B594.loopexit:
+  %before.2.1.lcssa = phi ptr [ %before.3.0235, %B596.endif ], [ %.563, %B872.backedge ]
+  %pushed_x.2.1.lcssa = phi double [ %pushed_x.3.0236, %B596.endif ], [ %.598, %B872.backedge ]
+  %pushed_z.2.1.lcssa = phi double [ %pushed_z.3.0237, %B596.endif ], [ %.617, %B872.backedge ]
+  %exitcond.not = icmp eq i64 %.252, %arg.supports
+  br i1 %exitcond.not, label %common.ret, label %B596.endif
 
-B826:
-  %above.2.1211 = phi i1 [ false, %B826.lr.ph ], [ %above.3.2, %B2209 ]
-  %i.2.1210 = phi i64 [ %.284, %B826.lr.ph ], [ %i.3.2, %B2209 ]
-  %pushed_z.2.1209 = phi double [ %pushed_z.3.0223, %B826.lr.ph ], [ %.618, %B2209 ]
-  %pushed_x.2.1208 = phi double [ %pushed_x.3.0222, %B826.lr.ph ], [ %.599, %B2209 ]
-  %before.2.1207 = phi ptr [ %before.3.0221, %B826.lr.ph ], [ %.564, %B2209 ]
-  %.514202206 = phi i64 [ %.471, %B826.lr.ph ], [ %.524, %B2209 ]
-  %.521203205 = phi i64 [ %.284, %B826.lr.ph ], [ %.528, %B2209 ]
-  %.524 = add nsw i64 %.514202206, -1
-  %.528 = add i64 %.521203205, 1
-  %.562 = mul nsw i64 %.521203205, %arg.width
-  %.564 = getelementptr double, ptr %arg.rows, i64 %.562
-  %.570 = load double, ptr %.564, align 8
-  %.575 = fsub double %.570, %.299
-  %.581 = load double, ptr %before.2.1207, align 8
-  %.582 = fsub double %.570, %.581
-  %.583 = fmul double %.582, 5.000000e-01
-  %.591 = getelementptr i8, ptr %.564, i64 16
-  %.592 = load double, ptr %.591, align 8
-  %.594 = getelementptr i8, ptr %before.2.1207, i64 16
-  %.595 = load double, ptr %.594, align 8
-  %.596 = fadd double %.592, %.595
-  %.597 = fmul double %.583, %.596
-  %.599 = fadd double %pushed_x.2.1208, %.597
-  %.607 = getelementptr i8, ptr %.564, i64 24
-  %.608 = load double, ptr %.607, align 8
-  %.611 = getelementptr i8, ptr %before.2.1207, i64 24
-  %.612 = load double, ptr %.611, align 8
-  %.615 = fadd double %.608, %.612
-  %.616 = fmul double %.583, %.615
-  %.618 = fadd double %pushed_z.2.1209, %.616
-  %.630 = getelementptr double, ptr %.564, i64 %.37
-  %.631 = load double, ptr %.630, align 8
-  %.633 = fsub double %.631, %.599
-  %.637 = getelementptr i8, ptr %.630, i64 8
-  %.638 = load double, ptr %.637, align 8
-  %.640 = fsub double %.638, %.618
-  %.643 = getelementptr double, ptr %.79, i64 %.521203205
-  store double %.633, ptr %.643, align 8
-  %.647 = getelementptr double, ptr %.83, i64 %.521203205
-  store double %.640, ptr %.647, align 8
-  %.652 = getelementptr double, ptr %arg.out, i64 %.521203205
-  store double 0x7FF0000000000000, ptr %.652, align 8
-  %.656 = getelementptr double, ptr %.61, i64 %.521203205
-  store double 0xFFF0000000000000, ptr %.656, align 8
-  %.660 = getelementptr double, ptr %.65, i64 %.521203205
-  store double 0.000000e+00, ptr %.660, align 8
-  %.668 = getelementptr double, ptr %1, i64 %.521203205
-  store ptr null, ptr %.674, align 8
-  %.678 = call i32 @_ZN18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.674, ptr nonnull %excinfo.2, ptr nonnull %.564, ptr %arg.at, i64 %arg.p, ptr %.154, ptr %.668, i64 %.31)
-  %cond = icmp eq i32 %.678, 0
-  br i1 %cond, label %B826.endif, label %common.ret, !prof !0
+B874:
+  %above.2.1225 = phi i1 [ false, %B874.lr.ph ], [ %above.3.2, %B872.backedge ]
+  %i.2.1224 = phi i64 [ %.283, %B874.lr.ph ], [ %i.3.2, %B872.backedge ]
+  %pushed_z.2.1223 = phi double [ %pushed_z.3.0237, %B874.lr.ph ], [ %.617, %B872.backedge ]
+  %pushed_x.2.1222 = phi double [ %pushed_x.3.0236, %B874.lr.ph ], [ %.598, %B872.backedge ]
+  %before.2.1221 = phi ptr [ %before.3.0235, %B874.lr.ph ], [ %.563, %B872.backedge ]
+  %.513216220 = phi i64 [ %.470, %B874.lr.ph ], [ %.523, %B872.backedge ]
+  %.520217219 = phi i64 [ %.283, %B874.lr.ph ], [ %.527, %B872.backedge ]
+  %.523 = add nsw i64 %.513216220, -1
+  %.527 = add i64 %.520217219, 1
+  %.561 = mul nsw i64 %.520217219, %arg.width
+  %.563 = getelementptr double, ptr %arg.rows, i64 %.561
+  %.569 = load double, ptr %.563, align 8
+  %.574 = fsub double %.569, %.298
+  %.580 = load double, ptr %before.2.1221, align 8
+  %.581 = fsub double %.569, %.580
+  %.582 = fmul double %.581, 5.000000e-01
+  %.590 = getelementptr i8, ptr %.563, i64 16
+  %.591 = load double, ptr %.590, align 8
+  %.593 = getelementptr i8, ptr %before.2.1221, i64 16
+  %.594 = load double, ptr %.593, align 8
+  %.595 = fadd double %.591, %.594
+  %.596 = fmul double %.582, %.595
+  %.598 = fadd double %pushed_x.2.1222, %.596
+  %.606 = getelementptr i8, ptr %.563, i64 24
+  %.607 = load double, ptr %.606, align 8
+  %.610 = getelementptr i8, ptr %before.2.1221, i64 24
+  %.611 = load double, ptr %.610, align 8
+  %.614 = fadd double %.607, %.611
+  %.615 = fmul double %.582, %.614
+  %.617 = fadd double %pushed_z.2.1223, %.615
+  %.629 = getelementptr double, ptr %.563, i64 %.38
+  %.630 = load double, ptr %.629, align 8
+  %.632 = fsub double %.630, %.598
+  %.636 = getelementptr i8, ptr %.629, i64 8
+  %.637 = load double, ptr %.636, align 8
+  %.639 = fsub double %.637, %.617
+  %.642 = getelementptr double, ptr %.80, i64 %.520217219
+  store double %.632, ptr %.642, align 8
+  %.646 = getelementptr double, ptr %.84, i64 %.520217219
+  store double %.639, ptr %.646, align 8
+  %.651 = getelementptr double, ptr %arg.out, i64 %.520217219
+  store double 0x7FF0000000000000, ptr %.651, align 8
+  %.655 = getelementptr double, ptr %.62, i64 %.520217219
+  store double 0xFFF0000000000000, ptr %.655, align 8
+  %.659 = getelementptr double, ptr %.66, i64 %.520217219
+  store double 0.000000e+00, ptr %.659, align 8
+  %.667 = getelementptr double, ptr %1, i64 %.520217219
+  store ptr null, ptr %.673, align 8
+  %.677 = call i32 @_ZN18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.673, ptr nonnull %excinfo.2, ptr nonnull %.563, ptr %arg.at, i64 %arg.p, ptr %.146, ptr %.667, i64 %.32)
+  %cond = icmp eq i32 %.677, 0
+  br i1 %cond, label %B874.endif, label %common.ret, !prof !0
 
-B1394:
-  %.717 = add nsw i64 %i.2.1210, 1
-  %.719 = icmp slt i64 %.717, %.290
-  br i1 %.719, label %B1412, label %B1524
+B1442:
+  %.716 = add nsw i64 %i.2.1224, 1
+  %.718 = icmp slt i64 %.716, %.289
+  br i1 %.718, label %B1460, label %B1572
 
-B1412:
-  %.733 = mul nsw i64 %.717, %arg.width
-  %.735 = getelementptr double, ptr %arg.rows, i64 %.733
-  %.736 = load double, ptr %.735, align 8
-  %.739 = fsub double %.570, %.13.i
-  %.740 = fcmp ugt double %.736, %.739
-  br i1 %.740, label %B1524, label %B1454.preheader
+B1460:
+  %.732 = mul nsw i64 %.716, %arg.width
+  %.734 = getelementptr double, ptr %arg.rows, i64 %.732
+  %.735 = load double, ptr %.734, align 8
+  %.738 = fsub double %.569, %.13.i
+  %.739 = fcmp ugt double %.735, %.738
+  br i1 %.739, label %B1572, label %B1502.preheader
 
-B1454.preheader:
-  %3 = add i64 %i.2.1210, 2
+B1502.preheader:
+  %3 = add i64 %i.2.1224, 2
   %4 = mul i64 %3, %2
   %scevgep = getelementptr i8, ptr %arg.rows, i64 %4
-  br label %B1454
+  br label %B1502
 
-B1454:
-  %lsr.iv = phi ptr [ %scevgep, %B1454.preheader ], [ %scevgep49, %B1482 ]
-  %i.5.4 = phi i64 [ %i.2.1210, %B1454.preheader ], [ %.746, %B1482 ]
+B1502:
+  %lsr.iv = phi ptr [ %scevgep, %B1502.preheader ], [ %scevgep67, %B1530 ]
+  %i.5.4 = phi i64 [ %i.2.1224, %B1502.preheader ], [ %.745, %B1530 ]
   %5 = add i64 %i.5.4, 2
-  %.758 = icmp slt i64 %5, %.290
-  br i1 %.758, label %B1482, label %B1524.loopexit
+  %.757 = icmp slt i64 %5, %.289
+  br i1 %.757, label %B1530, label %B1572.loopexit
 
-B1482:
-  %.746 = add i64 %i.5.4, 1
-  %.774 = load double, ptr %lsr.iv, align 8
-  %.778 = fcmp ugt double %.774, %.739
-  %scevgep49 = getelementptr i8, ptr %lsr.iv, i64 %2
-  br i1 %.778, label %B1524.loopexit, label %B1454
+B1530:
+  %.745 = add i64 %i.5.4, 1
+  %.773 = load double, ptr %lsr.iv, align 8
+  %.777 = fcmp ugt double %.773, %.738
+  %scevgep67 = getelementptr i8, ptr %lsr.iv, i64 %2
+  br i1 %.777, label %B1572.loopexit, label %B1502
 
-B1524.loopexit:
-  %.746.lcssa = phi i64 [ %7, %B1454 ], [ %.746, %B1482 ]
-  %.pre = add nsw i64 %.746.lcssa, 1
-  br label %B1524
+B1572.loopexit:
+  %.745.lcssa = phi i64 [ %7, %B1502 ], [ %.745, %B1530 ]
+  %.pre = add nsw i64 %.745.lcssa, 1
+  br label %B1572
 
-B1524:
-  %.792.pre-phi = phi i64 [ %.pre, %B1524.loopexit ], [ %.717, %B1412 ], [ %.717, %B1394 ]
-  %i.4.3 = phi i64 [ %.746.lcssa, %B1524.loopexit ], [ %i.2.1210, %B1412 ], [ %i.2.1210, %B1394 ]
-  %.794 = mul nsw i64 %.792.pre-phi, %arg.width
-  %.796 = getelementptr double, ptr %arg.rows, i64 %.794
-  %.797 = load double, ptr %.796, align 8
-  %.800 = mul nsw i64 %i.4.3, %arg.width
-  %.802 = getelementptr double, ptr %arg.rows, i64 %.800
-  %.803 = load double, ptr %.802, align 8
-  %.804 = fsub double %.797, %.803
-  %.824 = fcmp ogt double %.804, 0.000000e+00
-  br i1 %.824, label %B1622.endif.endif, label %B1690
+B1572:
+  %.791.pre-phi = phi i64 [ %.pre, %B1572.loopexit ], [ %.716, %B1460 ], [ %.716, %B1442 ]
+  %i.4.3 = phi i64 [ %.745.lcssa, %B1572.loopexit ], [ %i.2.1224, %B1460 ], [ %i.2.1224, %B1442 ]
+  %.793 = mul nsw i64 %.791.pre-phi, %arg.width
+  %.795 = getelementptr double, ptr %arg.rows, i64 %.793
+  %.796 = load double, ptr %.795, align 8
+  %.799 = mul nsw i64 %i.4.3, %arg.width
+  %.801 = getelementptr double, ptr %arg.rows, i64 %.799
+  %.802 = load double, ptr %.801, align 8
+  %.803 = fsub double %.796, %.802
+  %.823 = fcmp ogt double %.803, 0.000000e+00
+  br i1 %.823, label %B1670.endif.endif, label %B1738
 
-B1690:
-  %"$phi1690.2.2.3" = phi double [ 0.000000e+00, %B1524 ], [ %.13.i21, %B1622.endif.endif ]
-  %sunkaddr = shl i64 %.521203205, 3
-  %sunkaddr51 = getelementptr i8, ptr %.79, i64 %sunkaddr
-  %.912 = load double, ptr %sunkaddr51, align 8
-  %.915 = getelementptr double, ptr %.79, i64 %i.4.3
-  %.916 = load double, ptr %.915, align 8
-  %.917 = fsub double %.912, %.916
-  %.921 = getelementptr double, ptr %.79, i64 %.792.pre-phi
-  %.922 = load double, ptr %.921, align 8
-  %.927 = fsub double %.922, %.916
-  %.928 = fmul double %"$phi1690.2.2.3", %.927
-  %.929 = fsub double %.917, %.928
-  %.934 = fdiv double %.929, %.13.i
-  %sunkaddr53 = getelementptr i8, ptr %.83, i64 %sunkaddr
-  %.941 = load double, ptr %sunkaddr53, align 8
-  %.944 = getelementptr double, ptr %.83, i64 %i.4.3
-  %.945 = load double, ptr %.944, align 8
-  %.946 = fsub double %.941, %.945
-  %.950 = getelementptr double, ptr %.83, i64 %.792.pre-phi
-  %.951 = load double, ptr %.950, align 8
-  %.956 = fsub double %.951, %.945
-  %.957 = fmul double %"$phi1690.2.2.3", %.956
-  %.958 = fsub double %.946, %.957
-  %.963 = fdiv double %.958, %.13.i
-  %.965 = fadd double %.109, %.963
-  %.971 = load double, ptr %sunkaddr54, align 8
-  %.973 = fmul double %.934, %.971
-  %.976 = load double, ptr %sunkaddr55, align 8
-  %.978 = fmul double %.976, %.965
-  %.979 = fadd double %.973, %.978
-  %sunkaddr57 = getelementptr i8, ptr %arg.out, i64 %sunkaddr
-  store double %.979, ptr %sunkaddr57, align 8
-  %.988 = fcmp ugt double %.979, 0.000000e+00
-  br i1 %.988, label %B1950.endif, label %B2046
+B1738:
+  %"$phi1738.2.2.3" = phi double [ 0.000000e+00, %B1572 ], [ %.13.i27, %B1670.endif.endif ]
+  %sunkaddr = shl i64 %.520217219, 3
+  %sunkaddr69 = getelementptr i8, ptr %.80, i64 %sunkaddr
+  %.911 = load double, ptr %sunkaddr69, align 8
+  %.914 = getelementptr double, ptr %.80, i64 %i.4.3
+  %.915 = load double, ptr %.914, align 8
+  %.916 = fsub double %.911, %.915
+  %.920 = getelementptr double, ptr %.80, i64 %.791.pre-phi
+  %.921 = load double, ptr %.920, align 8
+  %.926 = fsub double %.921, %.915
+  %.927 = fmul double %"$phi1738.2.2.3", %.926
+  %.928 = fsub double %.916, %.927
+  %.933 = fdiv double %.928, %.13.i
+  %sunkaddr71 = getelementptr i8, ptr %.84, i64 %sunkaddr
+  %.940 = load double, ptr %sunkaddr71, align 8
+  %.943 = getelementptr double, ptr %.84, i64 %i.4.3
+  %.944 = load double, ptr %.943, align 8
+  %.945 = fsub double %.940, %.944
+  %.949 = getelementptr double, ptr %.84, i64 %.791.pre-phi
+  %.950 = load double, ptr %.949, align 8
+  %.955 = fsub double %.950, %.944
+  %.956 = fmul double %"$phi1738.2.2.3", %.955
+  %.957 = fsub double %.945, %.956
+  %.962 = fdiv double %.957, %.13.i
+  %.964 = fadd double %.108, %.962
+  %.970 = load double, ptr %sunkaddr72, align 8
+  %.972 = fmul double %.933, %.970
+  %.975 = load double, ptr %sunkaddr73, align 8
+  %.977 = fmul double %.975, %.964
+  %.978 = fadd double %.972, %.977
+  store double %.978, ptr %.651, align 8
+  %.987 = fcmp ugt double %.978, 0.000000e+00
+  br i1 %.987, label %B1998.endif, label %B2094
 
-B2046:
-  %i.3.2 = phi i64 [ %i.4.3, %B1690 ], [ %i.4.3, %B1950.endif ], [ %i.2.1210, %B826.endif ]
-  %6 = getelementptr double, ptr %.564, i64 %.34
-  %.1037 = getelementptr i8, ptr %6, i64 8
-  %.1038 = load double, ptr %.1037, align 8
-  %.1042 = load double, ptr %6, align 8
-  %.1046 = fmul double %.112, %.1042
-  %.1047 = fadd double %.1038, %.1046
-  %.1052 = load double, ptr %sunkaddr60, align 8
-  %.1053 = fadd double %.1052, %.1047
-  %.1058 = fcmp ogt double %.1053, 0.000000e+00
-  %above.2.1.not = xor i1 %above.2.1211, true
-  %brmerge = or i1 %.1058, %above.2.1.not
-  br i1 %brmerge, label %B2209, label %B2150
+B2094:
+  %i.3.2 = phi i64 [ %i.4.3, %B1738 ], [ %i.4.3, %B1998.endif ], [ %i.2.1224, %B874.endif ]
+  %6 = getelementptr double, ptr %.563, i64 %.35
+  %.1036 = getelementptr i8, ptr %6, i64 8
+  %.1037 = load double, ptr %.1036, align 8
+  %.1041 = load double, ptr %6, align 8
+  %.1045 = fmul double %.110, %.1041
+  %.1046 = fadd double %.1037, %.1045
+  %.1050 = load double, ptr %sunkaddr75, align 8
+  %.1051 = fadd double %.1050, %.1046
+  %.1056 = fcmp ogt double %.1051, 0.000000e+00
+  %above.2.1.not = xor i1 %above.2.1225, true
+  %brmerge = or i1 %.1056, %above.2.1.not
+  br i1 %brmerge, label %B2228, label %B2180
 
-B2150:
-  %.1076 = fcmp olt double %.365, %.575
-  %.1086 = fcmp olt double %.575, %"$phi770.1.2.1"
-  %or.cond185 = select i1 %.1076, i1 %.1086, i1 false
-  br i1 %or.cond185, label %B2184, label %B2209
+B2180:
+  %.1077 = fcmp olt double %.364, %.574
+  %.1090 = fcmp olt double %.574, %"$phi818.1.2.1"
+  %or.cond193 = select i1 %.1077, i1 %.1090, i1 false
+  br i1 %or.cond193, label %B2212, label %B2228
 
-B2184:
-  %.1104 = fsub double 0.000000e+00, %.1053
-  %sunkaddr61 = shl i64 %.521203205, 3
-  %sunkaddr62 = getelementptr inbounds i8, ptr %.65, i64 %sunkaddr61
-  store double %.1104, ptr %sunkaddr62, align 8
-  br label %B2209
+B2212:
+  %.1113 = fsub double 0.000000e+00, %.1051
+  %sunkaddr76 = shl i64 %.520217219, 3
+  %sunkaddr77 = getelementptr inbounds i8, ptr %.66, i64 %sunkaddr76
+  store double %.1113, ptr %sunkaddr77, align 8
+  br label %B2228
+
+B2228:
+  %above.3.2 = phi i1 [ true, %B2180 ], [ true, %B2212 ], [ %.1056, %B2094 ]
+  %.1161 = load i64, ptr %sunkaddr79, align 8
+  %.1163 = icmp eq i64 %.520217219, %.1161
+  %.1171 = zext i1 %.1163 to i8
+  %.1172 = call i32 @_ZN18biped_adrc_kernels10keep_worstB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr nonnull %.1167, ptr nonnull %excinfo.5, ptr nonnull %.651, i64 %.32, ptr %.1157, i8 %.1171)
+  switch i32 %.1172, label %common.ret [
+    i32 -2, label %B872.backedge
+    i32 0, label %B872.backedge
+  ], !prof !1
+
+B872.backedge:
+  %.514 = icmp sgt i64 %.513216220, 1
+  br i1 %.514, label %B874, label %B594.loopexit
 
 common.ret:
-  %excinfo.sink = phi ptr [ %retptr, %B0.endif ], [ %excinfo, %B826 ], [ %retptr, %B546.loopexit ]
-  %common.ret.op = phi i32 [ 0, %B0.endif ], [ %.678, %B826 ], [ 0, %B546.loopexit ]
+  %excinfo.sink = phi ptr [ %excinfo, %B2228 ], [ %retptr, %B0.endif ], [ %excinfo, %B874 ], [ %retptr, %B594.loopexit ]
+  %common.ret.op = phi i32 [ %.1172, %B2228 ], [ 0, %B0.endif ], [ %.677, %B874 ], [ 0, %B594.loopexit ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B2209:
-  %above.3.2 = phi i1 [ %.1058, %B2046 ], [ true, %B2150 ], [ true, %B2184 ]
-  %.515 = icmp sgt i64 %.514202206, 1
-  br i1 %.515, label %B826, label %B546.loopexit
+B596.endif:
+  %pushed_z.3.0237 = phi double [ 0.000000e+00, %B596.lr.ph ], [ %pushed_z.2.1.lcssa, %B594.loopexit ]
+  %pushed_x.3.0236 = phi double [ 0.000000e+00, %B596.lr.ph ], [ %pushed_x.2.1.lcssa, %B594.loopexit ]
+  %before.3.0235 = phi ptr [ %arg.rows, %B596.lr.ph ], [ %before.2.1.lcssa, %B594.loopexit ]
+  %.245229233 = phi i64 [ 0, %B596.lr.ph ], [ %.252, %B594.loopexit ]
+  %.252 = add nuw nsw i64 %.245229233, 1
+  %.282 = getelementptr i64, ptr %arg.first, i64 %.245229233
+  %.283 = load i64, ptr %.282, align 8
+  %.287 = getelementptr i8, ptr %.282, i64 8
+  %.288 = load i64, ptr %.287, align 8
+  %.289 = add nsw i64 %.288, -1
+  %.295 = mul nsw i64 %.283, %arg.width
+  %.297 = getelementptr double, ptr %arg.rows, i64 %.295
+  %.298 = load double, ptr %.297, align 8
+  %.321 = mul nsw i64 %.289, %arg.width
+  %.323 = getelementptr double, ptr %arg.rows, i64 %.321
+  %.324 = load double, ptr %.323, align 8
+  %.326 = fsub double %.324, %.298
+  %.12.i = fcmp olt double %.326, %.106
+  %.13.i = select i1 %.12.i, double %.326, double %.106
+  %.362 = fmul double %.121, %.326
+  %.364 = fadd double %.123, %.362
+  %.373 = icmp slt i64 %.245229233, %arg.impacts
+  %.378 = fmul double %.376, %.326
+  %.382 = fsub double %.378, %.123
+  %"$phi818.1.2.1" = select i1 %.373, double %.382, double 0x7FF0000000000000
+  %.470 = sub i64 %.288, %.283
+  %.514218.not = icmp slt i64 %.470, 1
+  br i1 %.514218.not, label %B594.loopexit, label %B874.lr.ph
 
-B548.endif:
-  %pushed_z.3.0223 = phi double [ 0.000000e+00, %B548.lr.ph ], [ %pushed_z.2.1.lcssa, %B546.loopexit ]
-  %pushed_x.3.0222 = phi double [ 0.000000e+00, %B548.lr.ph ], [ %pushed_x.2.1.lcssa, %B546.loopexit ]
-  %before.3.0221 = phi ptr [ %arg.rows, %B548.lr.ph ], [ %before.2.1.lcssa, %B546.loopexit ]
-  %.246215219 = phi i64 [ 0, %B548.lr.ph ], [ %.253, %B546.loopexit ]
-  %.253 = add nuw nsw i64 %.246215219, 1
-  %.283 = getelementptr i64, ptr %arg.first, i64 %.246215219
-  %.284 = load i64, ptr %.283, align 8
-  %.288 = getelementptr i8, ptr %.283, i64 8
-  %.289 = load i64, ptr %.288, align 8
-  %.290 = add nsw i64 %.289, -1
-  %.296 = mul nsw i64 %.284, %arg.width
-  %.298 = getelementptr double, ptr %arg.rows, i64 %.296
-  %.299 = load double, ptr %.298, align 8
-  %.322 = mul nsw i64 %.290, %arg.width
-  %.324 = getelementptr double, ptr %arg.rows, i64 %.322
-  %.325 = load double, ptr %.324, align 8
-  %.327 = fsub double %.325, %.299
-  %.12.i = fcmp olt double %.327, %.106
-  %.13.i = select i1 %.12.i, double %.327, double %.106
-  %.363 = fmul double %.124, %.327
-  %.365 = fadd double %.127, %.363
-  %.374 = icmp slt i64 %.246215219, %arg.impacts
-  %.379 = fmul double %.377, %.327
-  %.383 = fsub double %.379, %.127
-  %"$phi770.1.2.1" = select i1 %.374, double %.383, double 0x7FF0000000000000
-  %.471 = sub i64 %.289, %.284
-  %.515204.not = icmp slt i64 %.471, 1
-  br i1 %.515204.not, label %B546.loopexit, label %B826.lr.ph
-
-B826.lr.ph:
-  %.706 = fsub double %.13.i, %.127
-  %7 = add i64 %.289, -2
+B874.lr.ph:
+  %.705 = fsub double %.13.i, %.123
+  %.1157.idx = mul i64 %.245229233, 72
+  %.1157 = getelementptr i8, ptr %arg.worst, i64 %.1157.idx
+  %7 = add i64 %.288, -2
   %8 = fcmp ogt double %.13.i, 1.000000e-09
-  %sunkaddr58 = shl i64 %.246215219, 3
-  %sunkaddr59 = getelementptr i8, ptr %arg.known, i64 %sunkaddr58
-  %sunkaddr60 = getelementptr i8, ptr %sunkaddr59, i64 72
-  br label %B826
+  %sunkaddr74 = shl i64 %.245229233, 3
+  %sunkaddr75 = getelementptr inbounds i8, ptr %.150, i64 %sunkaddr74
+  %sunkaddr79 = getelementptr i8, ptr %arg.first, i64 %sunkaddr74
+  br label %B874
 
-B826.endif:
-  %.708 = fcmp oge double %.575, %.706
-  %or.cond = select i1 %8, i1 %.708, i1 false
-  br i1 %or.cond, label %B1394, label %B2046
+B874.endif:
+  %.707 = fcmp oge double %.574, %.705
+  %or.cond = select i1 %8, i1 %.707, i1 false
+  br i1 %or.cond, label %B1442, label %B2094
 
-B1622.endif.endif:
-  %.807 = fsub double %.570, %.13.i
-  %.816 = fsub double %.807, %.803
-  %.831 = fdiv double %.816, %.804
-  %.12.i18 = fcmp olt double %.831, 0.000000e+00
-  %.13.i19 = select i1 %.12.i18, double 0.000000e+00, double %.831
-  %.12.i20 = fcmp ogt double %.13.i19, 1.000000e+00
-  %.13.i21 = select i1 %.12.i20, double 1.000000e+00, double %.13.i19
-  br label %B1690
+B1670.endif.endif:
+  %.806 = fsub double %.569, %.13.i
+  %.815 = fsub double %.806, %.802
+  %.830 = fdiv double %.815, %.803
+  %.12.i24 = fcmp olt double %.830, 0.000000e+00
+  %.13.i25 = select i1 %.12.i24, double 0.000000e+00, double %.830
+  %.12.i26 = fcmp ogt double %.13.i25, 1.000000e+00
+  %.13.i27 = select i1 %.12.i26, double 1.000000e+00, double %.13.i25
+  br label %B1738
 
-B1950.endif:
-  %.997 = load double, ptr %sunkaddr63, align 8
-  %.999 = fmul double %.934, %.997
-  %.1004 = load double, ptr %sunkaddr64, align 8
-  %.1006 = fmul double %.965, %.1004
-  %.1009 = fadd double %.999, %.1006
-  %.1010 = tail call double @llvm.fabs.f64(double %.1009)
-  %.1018 = fdiv double %.1010, %.979
-  %sunkaddr66 = getelementptr inbounds i8, ptr %.61, i64 %sunkaddr
-  store double %.1018, ptr %sunkaddr66, align 8
-  br label %B2046
+B1998.endif:
+  %.996 = load double, ptr %sunkaddr80, align 8
+  %.998 = fmul double %.933, %.996
+  %.1003 = load double, ptr %sunkaddr81, align 8
+  %.1005 = fmul double %.964, %.1003
+  %.1008 = fadd double %.998, %.1005
+  %.1009 = tail call double @llvm.fabs.f64(double %.1008)
+  %.1017 = fdiv double %.1009, %.978
+  %sunkaddr83 = getelementptr inbounds i8, ptr %.62, i64 %sunkaddr
+  store double %.1017, ptr %sunkaddr83, align 8
+  br label %B2094
 }
 
 
 declare double @llvm.fabs.f64(double) #1
 
 
-define ptr @demands(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, ptr readonly %.5, i64 %.6, i64 %.7, ptr readonly %.8, ptr %.9) local_unnamed_addr #0 {
+define ptr @demands(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, ptr readonly %.5, i64 %.6, i64 %.7, ptr readonly %.8, ptr %.9, ptr %.10) local_unnamed_addr #0 {
 entry:
-  %.11 = alloca ptr, align 8
-  store ptr null, ptr %.11, align 8
+  %.12 = alloca ptr, align 8
+  store ptr null, ptr %.12, align 8
   %excinfo = alloca ptr, align 8
-  %.15 = call i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a(ptr nonnull %.11, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3, i64 %.4, ptr %.5, i64 %.6, i64 %.7, ptr %.8, ptr %.9) #0
-  %cond = icmp eq i32 %.15, 0
+  %.16 = call i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a(ptr nonnull %.12, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3, i64 %.4, ptr %.5, i64 %.6, i64 %.7, ptr %.8, ptr %.9, ptr %.10) #0
+  %cond = icmp eq i32 %.16, 0
   br i1 %cond, label %common.ret, label %entry.if, !prof !0
 
 entry.if:
@@ -325,8 +343,8 @@ entry.if:
   unreachable
 
 common.ret:
-  %.25 = load ptr, ptr %.11, align 8
-  ret ptr %.25
+  %.26 = load ptr, ptr %.12, align 8
+  ret ptr %.26
 }
 
 
@@ -585,11 +603,176 @@ B566.us.2:
 
 B606.us.2:
   %exitcond.not = icmp eq i64 %arg.p, %.245.us
-  br i1 %exitcond.not, label %common.ret, label %B516.us, !llvm.loop !1
+  br i1 %exitcond.not, label %common.ret, label %B516.us, !llvm.loop !2
 }
 
 
-define i32 @_ZN18biped_adrc_kernels6totalsB4v123B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, i64 %arg.count, ptr %arg.out) local_unnamed_addr #3 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels10keep_worstB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.numbers, i64 %arg.count, ptr %arg.worst, i8 %arg.begins) local_unnamed_addr #0 {
+entry:
+  %.10.not = icmp eq i8 %arg.begins, 0
+  %.152.us = load double, ptr %arg.numbers, align 8
+  br i1 %.10.not, label %B36.us.preheader, label %B206.5
+
+B36.us.preheader:
+  %.156.us = load double, ptr %arg.worst, align 8
+  %.168.us = fcmp olt double %.152.us, %.156.us
+  %.193.us = fcmp uno double %.152.us, 0.000000e+00
+  %or.cond.us = or i1 %.193.us, %.168.us
+  %.197.us = fcmp ord double %.156.us, 0.000000e+00
+  %or.cond64.us = and i1 %.197.us, %or.cond.us
+  br i1 %or.cond64.us, label %B144.us, label %B206.us
+
+B144.us:
+  store double %.152.us, ptr %arg.worst, align 8
+  br label %B206.us
+
+B206.us:
+  %.151.us.1 = getelementptr double, ptr %arg.numbers, i64 %arg.count
+  %.152.us.1 = load double, ptr %.151.us.1, align 8
+  %.155.us.1 = getelementptr i8, ptr %arg.worst, i64 8
+  %.156.us.1 = load double, ptr %.155.us.1, align 8
+  %.175.us.1 = fcmp ogt double %.152.us.1, %.156.us.1
+  %.193.us.1 = fcmp uno double %.152.us.1, 0.000000e+00
+  %or.cond.us.1 = or i1 %.193.us.1, %.175.us.1
+  %.197.us.1 = fcmp ord double %.156.us.1, 0.000000e+00
+  %or.cond64.us.1 = and i1 %.197.us.1, %or.cond.us.1
+  br i1 %or.cond64.us.1, label %B144.us.1, label %B206.us.1
+
+B144.us.1:
+  store double %.152.us.1, ptr %.155.us.1, align 8
+  br label %B206.us.1
+
+B206.us.1:
+  %.151.us.2.idx = shl i64 %arg.count, 4
+  %.151.us.2 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.2.idx
+  %.152.us.2 = load double, ptr %.151.us.2, align 8
+  %.155.us.2 = getelementptr i8, ptr %arg.worst, i64 16
+  %.156.us.2 = load double, ptr %.155.us.2, align 8
+  %.175.us.2 = fcmp ogt double %.152.us.2, %.156.us.2
+  %.193.us.2 = fcmp uno double %.152.us.2, 0.000000e+00
+  %or.cond.us.2 = or i1 %.193.us.2, %.175.us.2
+  %.197.us.2 = fcmp ord double %.156.us.2, 0.000000e+00
+  %or.cond64.us.2 = and i1 %.197.us.2, %or.cond.us.2
+  br i1 %or.cond64.us.2, label %B144.us.2, label %B206.us.2
+
+B144.us.2:
+  store double %.152.us.2, ptr %.155.us.2, align 8
+  br label %B206.us.2
+
+B206.us.2:
+  %.151.us.3.idx = mul i64 %arg.count, 24
+  %.151.us.3 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.3.idx
+  %.152.us.3 = load double, ptr %.151.us.3, align 8
+  %.155.us.3 = getelementptr i8, ptr %arg.worst, i64 24
+  %.156.us.3 = load double, ptr %.155.us.3, align 8
+  %.175.us.3 = fcmp ogt double %.152.us.3, %.156.us.3
+  %.193.us.3 = fcmp uno double %.152.us.3, 0.000000e+00
+  %or.cond.us.3 = or i1 %.193.us.3, %.175.us.3
+  %.197.us.3 = fcmp ord double %.156.us.3, 0.000000e+00
+  %or.cond64.us.3 = and i1 %.197.us.3, %or.cond.us.3
+  br i1 %or.cond64.us.3, label %B166.us.3, label %B206.us.3
+
+B166.us.3:
+  store double %.152.us.3, ptr %.155.us.3, align 8
+  %.220.us.3.idx = mul i64 %arg.count, 48
+  %.220.us.3 = getelementptr i8, ptr %arg.numbers, i64 %.220.us.3.idx
+  %.221.us.3 = load double, ptr %.220.us.3, align 8
+  %.227.us.3 = getelementptr i8, ptr %arg.worst, i64 48
+  store double %.221.us.3, ptr %.227.us.3, align 8
+  br label %B206.us.3
+
+B206.us.3:
+  %.151.us.4.idx = shl i64 %arg.count, 5
+  %.151.us.4 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.4.idx
+  %.152.us.4 = load double, ptr %.151.us.4, align 8
+  %.155.us.4 = getelementptr i8, ptr %arg.worst, i64 32
+  %.156.us.4 = load double, ptr %.155.us.4, align 8
+  %.175.us.4 = fcmp ogt double %.152.us.4, %.156.us.4
+  %.193.us.4 = fcmp uno double %.152.us.4, 0.000000e+00
+  %or.cond.us.4 = or i1 %.193.us.4, %.175.us.4
+  %.197.us.4 = fcmp ord double %.156.us.4, 0.000000e+00
+  %or.cond64.us.4 = and i1 %.197.us.4, %or.cond.us.4
+  br i1 %or.cond64.us.4, label %B166.us.4, label %B206.us.4
+
+B166.us.4:
+  store double %.152.us.4, ptr %.155.us.4, align 8
+  %.220.us.4.idx = mul i64 %arg.count, 56
+  %.220.us.4 = getelementptr i8, ptr %arg.numbers, i64 %.220.us.4.idx
+  %.221.us.4 = load double, ptr %.220.us.4, align 8
+  %.227.us.4 = getelementptr i8, ptr %arg.worst, i64 56
+  store double %.221.us.4, ptr %.227.us.4, align 8
+  br label %B206.us.4
+
+B206.us.4:
+  %.151.us.5.idx = mul i64 %arg.count, 40
+  %.151.us.5 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.5.idx
+  %.152.us.5 = load double, ptr %.151.us.5, align 8
+  %.155.us.5 = getelementptr i8, ptr %arg.worst, i64 40
+  %.156.us.5 = load double, ptr %.155.us.5, align 8
+  %.175.us.5 = fcmp ogt double %.152.us.5, %.156.us.5
+  %.193.us.5 = fcmp uno double %.152.us.5, 0.000000e+00
+  %or.cond.us.5 = or i1 %.193.us.5, %.175.us.5
+  %.197.us.5 = fcmp ord double %.156.us.5, 0.000000e+00
+  %or.cond64.us.5 = and i1 %.197.us.5, %or.cond.us.5
+  br i1 %or.cond64.us.5, label %B166.us.5, label %B208
+
+B166.us.5:
+  store double %.152.us.5, ptr %.155.us.5, align 8
+  br label %B208.sink.split
+
+B206.5:
+  store double %.152.us, ptr %arg.worst, align 8
+  %.151.1.phi.trans.insert = getelementptr double, ptr %arg.numbers, i64 %arg.count
+  %.152.1.pre = load double, ptr %.151.1.phi.trans.insert, align 8
+  %.155.1 = getelementptr i8, ptr %arg.worst, i64 8
+  store double %.152.1.pre, ptr %.155.1, align 8
+  %.151.2.idx = shl i64 %arg.count, 4
+  %.151.2 = getelementptr i8, ptr %arg.numbers, i64 %.151.2.idx
+  %.152.2 = load double, ptr %.151.2, align 8
+  %.155.2 = getelementptr i8, ptr %arg.worst, i64 16
+  store double %.152.2, ptr %.155.2, align 8
+  %.151.3.idx = mul i64 %arg.count, 24
+  %.151.3 = getelementptr i8, ptr %arg.numbers, i64 %.151.3.idx
+  %.152.3 = load double, ptr %.151.3, align 8
+  %.155.3 = getelementptr i8, ptr %arg.worst, i64 24
+  store double %.152.3, ptr %.155.3, align 8
+  %.220.3.idx = mul i64 %arg.count, 48
+  %.220.3 = getelementptr i8, ptr %arg.numbers, i64 %.220.3.idx
+  %.221.3 = load double, ptr %.220.3, align 8
+  %.227.3 = getelementptr i8, ptr %arg.worst, i64 48
+  store double %.221.3, ptr %.227.3, align 8
+  %.151.4.idx = shl i64 %arg.count, 5
+  %.151.4 = getelementptr i8, ptr %arg.numbers, i64 %.151.4.idx
+  %.152.4 = load double, ptr %.151.4, align 8
+  %.155.4 = getelementptr i8, ptr %arg.worst, i64 32
+  store double %.152.4, ptr %.155.4, align 8
+  %.220.4.idx = mul i64 %arg.count, 56
+  %.220.4 = getelementptr i8, ptr %arg.numbers, i64 %.220.4.idx
+  %.221.4 = load double, ptr %.220.4, align 8
+  %.227.4 = getelementptr i8, ptr %arg.worst, i64 56
+  store double %.221.4, ptr %.227.4, align 8
+  %.151.5.idx = mul i64 %arg.count, 40
+  %.151.5 = getelementptr i8, ptr %arg.numbers, i64 %.151.5.idx
+  %.152.5 = load double, ptr %.151.5, align 8
+  %.155.5 = getelementptr i8, ptr %arg.worst, i64 40
+  store double %.152.5, ptr %.155.5, align 8
+  br label %B208.sink.split
+
+B208.sink.split:
+  %.220.us.5.idx = shl i64 %arg.count, 6
+  %.220.us.5 = getelementptr i8, ptr %arg.numbers, i64 %.220.us.5.idx
+  %.221.us.5 = load double, ptr %.220.us.5, align 8
+  %.227.us.5 = getelementptr i8, ptr %arg.worst, i64 64
+  store double %.221.us.5, ptr %.227.us.5, align 8
+  br label %B208
+
+B208:
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+}
+
+
+define i32 @_ZN18biped_adrc_kernels6totalsB4v124B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, i64 %arg.count, ptr %arg.out) local_unnamed_addr #3 {
 B0.endif:
   %.105164.not = icmp slt i64 %arg.count, 1
   br i1 %.105164.not, label %B820, label %B38.endif.lr.ph
@@ -600,8 +783,8 @@ B38.endif.lr.ph:
   br i1 %.216, label %B38.endif.us.us.preheader, label %B38.endif.preheader
 
 B38.endif.preheader:
-  %xtraiter = and i64 %arg.count, 3
-  %0 = icmp samesign ult i64 %arg.count, 4
+  %xtraiter = and i64 %arg.count, 7
+  %0 = icmp samesign ult i64 %arg.count, 8
   br i1 %0, label %B38.endif.preheader.B38.endif.epil.preheader_crit_edge, label %B38.endif.preheader.new
 
 B38.endif.preheader.B38.endif.epil.preheader_crit_edge:
@@ -609,12 +792,16 @@ B38.endif.preheader.B38.endif.epil.preheader_crit_edge:
   br label %B38.endif.epil.preheader
 
 B38.endif.preheader.new:
-  %1 = mul i64 %arg.width, 24
-  %2 = shl i64 %arg.width, 5
-  %3 = shl i64 %arg.width, 4
-  %4 = and i64 %arg.count, 9223372036854775804
-  %sunkaddr130 = shl i64 %arg.width, 3
-  %sunkaddr140 = getelementptr i8, ptr %arg.out, i64 8
+  %1 = mul i64 %arg.width, 56
+  %2 = shl i64 %arg.width, 6
+  %3 = mul i64 %arg.width, 48
+  %4 = mul i64 %arg.width, 40
+  %5 = shl i64 %arg.width, 5
+  %6 = mul i64 %arg.width, 24
+  %7 = shl i64 %arg.width, 4
+  %8 = and i64 %arg.count, 9223372036854775800
+  %sunkaddr138 = shl i64 %arg.width, 3
+  %sunkaddr152 = getelementptr i8, ptr %arg.out, i64 8
   br label %B38.endif
 
 B38.endif.us.us.preheader:
@@ -624,24 +811,24 @@ B38.endif.us.us.preheader:
   %xtraiter15 = and i64 %arg.p.fr, 3
   %unroll_iter19 = and i64 %arg.p.fr, 9223372036854775804
   %scevgep = getelementptr i8, ptr %arg.rows, i64 32
-  %5 = shl i64 %arg.width, 3
+  %9 = shl i64 %arg.width, 3
   %scevgep43 = getelementptr i8, ptr %arg.rows, i64 16
   %scevgep54 = getelementptr i8, ptr %arg.rows, i64 24
-  %6 = getelementptr i8, ptr %arg.rows, i64 %5
-  %scevgep73 = getelementptr i8, ptr %6, i64 16
-  %7 = shl nuw nsw i64 %xtraiter15, 3
-  %8 = icmp samesign ult i64 %arg.p.fr, 8
+  %10 = getelementptr i8, ptr %arg.rows, i64 %9
+  %scevgep73 = getelementptr i8, ptr %10, i64 16
+  %11 = shl nuw nsw i64 %xtraiter15, 3
+  %12 = icmp samesign ult i64 %arg.p.fr, 8
   %sunkaddr = getelementptr i8, ptr %arg.at, i64 24
-  %sunkaddr115 = getelementptr i8, ptr %arg.at, i64 32
-  %sunkaddr116 = getelementptr i8, ptr %arg.at, i64 40
-  %9 = icmp eq i64 %xtraiter8, 0
-  %10 = icmp samesign ult i64 %arg.p.fr, 4
-  %sunkaddr117 = getelementptr i8, ptr %arg.out, i64 8
-  %sunkaddr118 = getelementptr i8, ptr %arg.out, i64 16
-  %sunkaddr119 = getelementptr i8, ptr %arg.out, i64 24
-  %sunkaddr120 = getelementptr i8, ptr %arg.out, i64 32
-  %sunkaddr121 = getelementptr i8, ptr %arg.out, i64 40
-  %11 = icmp eq i64 %xtraiter15, 0
+  %sunkaddr123 = getelementptr i8, ptr %arg.at, i64 32
+  %sunkaddr124 = getelementptr i8, ptr %arg.at, i64 40
+  %13 = icmp eq i64 %xtraiter8, 0
+  %14 = icmp samesign ult i64 %arg.p.fr, 4
+  %sunkaddr125 = getelementptr i8, ptr %arg.out, i64 8
+  %sunkaddr126 = getelementptr i8, ptr %arg.out, i64 16
+  %sunkaddr127 = getelementptr i8, ptr %arg.out, i64 24
+  %sunkaddr128 = getelementptr i8, ptr %arg.out, i64 32
+  %sunkaddr129 = getelementptr i8, ptr %arg.out, i64 40
+  %15 = icmp eq i64 %xtraiter15, 0
   br label %B38.endif.us.us
 
 B38.endif.us.us:
@@ -652,17 +839,17 @@ B38.endif.us.us:
   %lsr.iv = phi ptr [ %scevgep, %B38.endif.us.us.preheader ], [ %scevgep22, %B816.us.us ]
   %arg.out.promoted.us.us = phi double [ %arg.out.promoted.us.us.pre, %B38.endif.us.us.preheader ], [ %arg.out.promoted.us.us257.lcssa, %B816.us.us ]
   %.111153167.us.us = phi i64 [ 0, %B38.endif.us.us.preheader ], [ %.118.us.us, %B816.us.us ]
-  %lsr.iv90 = getelementptr i8, ptr %arg.rows.pn, i64 %5
+  %lsr.iv90 = getelementptr i8, ptr %arg.rows.pn, i64 %9
   %.148.us.us = mul nsw i64 %.111153167.us.us, %arg.width
   %.150.us.us = getelementptr double, ptr %arg.rows, i64 %.148.us.us
   %.156.us.us = load i64, ptr %sunkaddr, align 8
-  %.161.us.us = load i64, ptr %sunkaddr115, align 8
-  %.166.us.us = load i64, ptr %sunkaddr116, align 8
-  br i1 %8, label %B272.us.us.epil.preheader, label %B272.us.us.preheader
+  %.161.us.us = load i64, ptr %sunkaddr123, align 8
+  %.166.us.us = load i64, ptr %sunkaddr124, align 8
+  br i1 %12, label %B272.us.us.epil.preheader, label %B272.us.us.preheader
 
 B272.us.us.preheader:
-  %12 = shl i64 %.156.us.us, 3
-  %scevgep23 = getelementptr i8, ptr %lsr.iv, i64 %12
+  %16 = shl i64 %.156.us.us, 3
+  %scevgep23 = getelementptr i8, ptr %lsr.iv, i64 %16
   br label %B272.us.us
 
 B440.us.us:
@@ -673,27 +860,27 @@ B440.us.us:
   br i1 %.353.us.us, label %B476.endif.us.us, label %B816.us.us
 
 B476.endif.us.us:
-  %.357.us.us = load double, ptr %sunkaddr117, align 8
+  %.357.us.us = load double, ptr %sunkaddr125, align 8
   %.358.us.us = fadd double %.357.us.us, 1.000000e+00
-  store double %.358.us.us, ptr %sunkaddr117, align 8
-  %.494.promoted.us.us = load double, ptr %sunkaddr118, align 8
-  %.508.promoted.us.us = load double, ptr %sunkaddr119, align 8
-  %.522.promoted.us.us = load double, ptr %sunkaddr120, align 8
-  %.530.promoted.us.us = load double, ptr %sunkaddr121, align 8
-  br i1 %10, label %B540.us.us.epil.preheader, label %B540.us.us.preheader
+  store double %.358.us.us, ptr %sunkaddr125, align 8
+  %.494.promoted.us.us = load double, ptr %sunkaddr126, align 8
+  %.508.promoted.us.us = load double, ptr %sunkaddr127, align 8
+  %.522.promoted.us.us = load double, ptr %sunkaddr128, align 8
+  %.530.promoted.us.us = load double, ptr %sunkaddr129, align 8
+  br i1 %14, label %B540.us.us.epil.preheader, label %B540.us.us.preheader
 
 B540.us.us.preheader:
-  %13 = shl i64 %.166.us.us, 3
-  %scevgep46 = getelementptr i8, ptr %lsr.iv44, i64 %13
-  %14 = shl i64 %.156.us.us, 3
-  %scevgep57 = getelementptr i8, ptr %lsr.iv55, i64 %14
-  %15 = shl i64 %.161.us.us, 3
-  %scevgep65 = getelementptr i8, ptr %lsr.iv44, i64 %15
-  %scevgep76 = getelementptr i8, ptr %lsr.iv74, i64 %13
+  %17 = shl i64 %.166.us.us, 3
+  %scevgep46 = getelementptr i8, ptr %lsr.iv44, i64 %17
+  %18 = shl i64 %.156.us.us, 3
+  %scevgep57 = getelementptr i8, ptr %lsr.iv55, i64 %18
+  %19 = shl i64 %.161.us.us, 3
+  %scevgep65 = getelementptr i8, ptr %lsr.iv44, i64 %19
+  %scevgep76 = getelementptr i8, ptr %lsr.iv74, i64 %17
   br label %B540.us.us
 
 B816.us.us.loopexit.unr-lcssa:
-  br i1 %11, label %B816.us.us, label %B540.us.us.epil.preheader
+  br i1 %15, label %B816.us.us, label %B540.us.us.epil.preheader
 
 B540.us.us.epil.preheader:
   %.531151.us.us.epil.init = phi double [ %.530.promoted.us.us, %B476.endif.us.us ], [ %.532.us.us.3, %B816.us.us.loopexit.unr-lcssa ]
@@ -701,16 +888,16 @@ B540.us.us.epil.preheader:
   %.509149.us.us.epil.init = phi double [ %.508.promoted.us.us, %B476.endif.us.us ], [ %.517.us.us.3, %B816.us.us.loopexit.unr-lcssa ]
   %.495148.us.us.epil.init = phi double [ %.494.promoted.us.us, %B476.endif.us.us ], [ %.503.us.us.3, %B816.us.us.loopexit.unr-lcssa ]
   %.448142144.us.us.epil.init = phi i64 [ 0, %B476.endif.us.us ], [ %unroll_iter19, %B816.us.us.loopexit.unr-lcssa ]
-  %16 = add i64 %.448142144.us.us.epil.init, %.156.us.us
-  %17 = shl i64 %16, 3
-  %scevgep84 = getelementptr i8, ptr %arg.rows.pn, i64 %17
-  %18 = add i64 %.448142144.us.us.epil.init, %.166.us.us
-  %19 = shl i64 %18, 3
-  %scevgep87 = getelementptr i8, ptr %arg.rows.pn, i64 %19
-  %scevgep92 = getelementptr i8, ptr %lsr.iv90, i64 %19
-  %20 = add i64 %.448142144.us.us.epil.init, %.161.us.us
+  %20 = add i64 %.448142144.us.us.epil.init, %.156.us.us
   %21 = shl i64 %20, 3
-  %scevgep94 = getelementptr i8, ptr %arg.rows.pn, i64 %21
+  %scevgep84 = getelementptr i8, ptr %arg.rows.pn, i64 %21
+  %22 = add i64 %.448142144.us.us.epil.init, %.166.us.us
+  %23 = shl i64 %22, 3
+  %scevgep87 = getelementptr i8, ptr %arg.rows.pn, i64 %23
+  %scevgep92 = getelementptr i8, ptr %lsr.iv90, i64 %23
+  %24 = add i64 %.448142144.us.us.epil.init, %.161.us.us
+  %25 = shl i64 %24, 3
+  %scevgep94 = getelementptr i8, ptr %arg.rows.pn, i64 %25
   br label %B540.us.us.epil
 
 B540.us.us.epil:
@@ -731,25 +918,25 @@ B540.us.us.epil:
   %.498.us.us.epil = load double, ptr %scevgep86, align 8
   %.502.us.us.epil = fmul double %.498.us.us.epil, %.498.us.us.epil
   %.503.us.us.epil = fadd double %.495148.us.us.epil, %.502.us.us.epil
-  store double %.503.us.us.epil, ptr %sunkaddr118, align 8
+  store double %.503.us.us.epil, ptr %sunkaddr126, align 8
   %.512.us.us.epil = load double, ptr %scevgep95, align 8
   %.516.us.us.epil = fmul double %.512.us.us.epil, %.512.us.us.epil
   %.517.us.us.epil = fadd double %.509149.us.us.epil, %.516.us.us.epil
-  store double %.517.us.us.epil, ptr %sunkaddr119, align 8
+  store double %.517.us.us.epil, ptr %sunkaddr127, align 8
   %.524.us.us.epil = tail call double @llvm.fabs.f64(double %.492.us.us.epil)
   %.525.us.us.epil = fadd double %.523150.us.us.epil, %.524.us.us.epil
-  store double %.525.us.us.epil, ptr %sunkaddr120, align 8
+  store double %.525.us.us.epil, ptr %sunkaddr128, align 8
   %.532.us.us.epil = fadd double %.531151.us.us.epil, %.492.us.us.epil
-  store double %.532.us.us.epil, ptr %sunkaddr121, align 8
+  store double %.532.us.us.epil, ptr %sunkaddr129, align 8
   %lsr.iv.next = add nuw nsw i64 %lsr.iv85, 8
-  %epil.iter16.cmp.not = icmp eq i64 %7, %lsr.iv.next
-  br i1 %epil.iter16.cmp.not, label %B816.us.us, label %B540.us.us.epil, !llvm.loop !3
+  %epil.iter16.cmp.not = icmp eq i64 %11, %lsr.iv.next
+  br i1 %epil.iter16.cmp.not, label %B816.us.us, label %B540.us.us.epil, !llvm.loop !4
 
 B816.us.us:
-  %scevgep22 = getelementptr i8, ptr %lsr.iv, i64 %5
-  %scevgep45 = getelementptr i8, ptr %lsr.iv44, i64 %5
-  %scevgep56 = getelementptr i8, ptr %lsr.iv55, i64 %5
-  %scevgep75 = getelementptr i8, ptr %lsr.iv74, i64 %5
+  %scevgep22 = getelementptr i8, ptr %lsr.iv, i64 %9
+  %scevgep45 = getelementptr i8, ptr %lsr.iv44, i64 %9
+  %scevgep56 = getelementptr i8, ptr %lsr.iv55, i64 %9
+  %scevgep75 = getelementptr i8, ptr %lsr.iv74, i64 %9
   %exitcond256.not = icmp eq i64 %arg.count, %.118.us.us
   br i1 %exitcond256.not, label %B820, label %B38.endif.us.us
 
@@ -759,33 +946,33 @@ B540.us.us:
   %.509149.us.us = phi double [ %.517.us.us.3, %B540.us.us ], [ %.508.promoted.us.us, %B540.us.us.preheader ]
   %.495148.us.us = phi double [ %.503.us.us.3, %B540.us.us ], [ %.494.promoted.us.us, %B540.us.us.preheader ]
   %.448142144.us.us = phi i64 [ %.455.us.us.3, %B540.us.us ], [ 0, %B540.us.us.preheader ]
-  %22 = shl i64 %.448142144.us.us, 3
-  %scevgep67 = getelementptr i8, ptr %scevgep65, i64 %22
+  %26 = shl i64 %.448142144.us.us, 3
+  %scevgep67 = getelementptr i8, ptr %scevgep65, i64 %26
   %scevgep68 = getelementptr i8, ptr %scevgep67, i64 -16
   %.482.us.us = load double, ptr %scevgep68, align 8
-  %scevgep78 = getelementptr i8, ptr %scevgep76, i64 %22
+  %scevgep78 = getelementptr i8, ptr %scevgep76, i64 %26
   %scevgep79 = getelementptr i8, ptr %scevgep78, i64 -16
   %.487.us.us = load double, ptr %scevgep79, align 8
-  %scevgep50 = getelementptr i8, ptr %scevgep46, i64 %22
+  %scevgep50 = getelementptr i8, ptr %scevgep46, i64 %26
   %scevgep51 = getelementptr i8, ptr %scevgep50, i64 -16
   %.490.us.us = load double, ptr %scevgep51, align 8
   %.491.us.us = fsub double %.487.us.us, %.490.us.us
   %.492.us.us = fmul double %.482.us.us, %.491.us.us
-  %scevgep59 = getelementptr i8, ptr %scevgep57, i64 %22
+  %scevgep59 = getelementptr i8, ptr %scevgep57, i64 %26
   %scevgep60 = getelementptr i8, ptr %scevgep59, i64 -24
   %.498.us.us = load double, ptr %scevgep60, align 8
   %.502.us.us = fmul double %.498.us.us, %.498.us.us
   %.503.us.us = fadd double %.495148.us.us, %.502.us.us
-  store double %.503.us.us, ptr %sunkaddr118, align 8
+  store double %.503.us.us, ptr %sunkaddr126, align 8
   %.512.us.us = load double, ptr %scevgep68, align 8
   %.516.us.us = fmul double %.512.us.us, %.512.us.us
   %.517.us.us = fadd double %.509149.us.us, %.516.us.us
-  store double %.517.us.us, ptr %sunkaddr119, align 8
+  store double %.517.us.us, ptr %sunkaddr127, align 8
   %.524.us.us = tail call double @llvm.fabs.f64(double %.492.us.us)
   %.525.us.us = fadd double %.523150.us.us, %.524.us.us
-  store double %.525.us.us, ptr %sunkaddr120, align 8
+  store double %.525.us.us, ptr %sunkaddr128, align 8
   %.532.us.us = fadd double %.531151.us.us, %.492.us.us
-  store double %.532.us.us, ptr %sunkaddr121, align 8
+  store double %.532.us.us, ptr %sunkaddr129, align 8
   %scevgep72 = getelementptr i8, ptr %scevgep67, i64 -8
   %.482.us.us.1 = load double, ptr %scevgep72, align 8
   %scevgep83 = getelementptr i8, ptr %scevgep78, i64 -8
@@ -798,16 +985,16 @@ B540.us.us:
   %.498.us.us.1 = load double, ptr %scevgep64, align 8
   %.502.us.us.1 = fmul double %.498.us.us.1, %.498.us.us.1
   %.503.us.us.1 = fadd double %.503.us.us, %.502.us.us.1
-  store double %.503.us.us.1, ptr %sunkaddr118, align 8
+  store double %.503.us.us.1, ptr %sunkaddr126, align 8
   %.512.us.us.1 = load double, ptr %scevgep72, align 8
   %.516.us.us.1 = fmul double %.512.us.us.1, %.512.us.us.1
   %.517.us.us.1 = fadd double %.517.us.us, %.516.us.us.1
-  store double %.517.us.us.1, ptr %sunkaddr119, align 8
+  store double %.517.us.us.1, ptr %sunkaddr127, align 8
   %.524.us.us.1 = tail call double @llvm.fabs.f64(double %.492.us.us.1)
   %.525.us.us.1 = fadd double %.525.us.us, %.524.us.us.1
-  store double %.525.us.us.1, ptr %sunkaddr120, align 8
+  store double %.525.us.us.1, ptr %sunkaddr128, align 8
   %.532.us.us.1 = fadd double %.532.us.us, %.492.us.us.1
-  store double %.532.us.us.1, ptr %sunkaddr121, align 8
+  store double %.532.us.us.1, ptr %sunkaddr129, align 8
   %.482.us.us.2 = load double, ptr %scevgep67, align 8
   %.487.us.us.2 = load double, ptr %scevgep78, align 8
   %.490.us.us.2 = load double, ptr %scevgep50, align 8
@@ -817,16 +1004,16 @@ B540.us.us:
   %.498.us.us.2 = load double, ptr %scevgep62, align 8
   %.502.us.us.2 = fmul double %.498.us.us.2, %.498.us.us.2
   %.503.us.us.2 = fadd double %.503.us.us.1, %.502.us.us.2
-  store double %.503.us.us.2, ptr %sunkaddr118, align 8
+  store double %.503.us.us.2, ptr %sunkaddr126, align 8
   %.512.us.us.2 = load double, ptr %scevgep67, align 8
   %.516.us.us.2 = fmul double %.512.us.us.2, %.512.us.us.2
   %.517.us.us.2 = fadd double %.517.us.us.1, %.516.us.us.2
-  store double %.517.us.us.2, ptr %sunkaddr119, align 8
+  store double %.517.us.us.2, ptr %sunkaddr127, align 8
   %.524.us.us.2 = tail call double @llvm.fabs.f64(double %.492.us.us.2)
   %.525.us.us.2 = fadd double %.525.us.us.1, %.524.us.us.2
-  store double %.525.us.us.2, ptr %sunkaddr120, align 8
+  store double %.525.us.us.2, ptr %sunkaddr128, align 8
   %.532.us.us.2 = fadd double %.532.us.us.1, %.492.us.us.2
-  store double %.532.us.us.2, ptr %sunkaddr121, align 8
+  store double %.532.us.us.2, ptr %sunkaddr129, align 8
   %.455.us.us.3 = add nuw nsw i64 %.448142144.us.us, 4
   %scevgep70 = getelementptr i8, ptr %scevgep67, i64 8
   %.482.us.us.3 = load double, ptr %scevgep70, align 8
@@ -839,16 +1026,16 @@ B540.us.us:
   %.498.us.us.3 = load double, ptr %scevgep59, align 8
   %.502.us.us.3 = fmul double %.498.us.us.3, %.498.us.us.3
   %.503.us.us.3 = fadd double %.503.us.us.2, %.502.us.us.3
-  store double %.503.us.us.3, ptr %sunkaddr118, align 8
+  store double %.503.us.us.3, ptr %sunkaddr126, align 8
   %.512.us.us.3 = load double, ptr %scevgep70, align 8
   %.516.us.us.3 = fmul double %.512.us.us.3, %.512.us.us.3
   %.517.us.us.3 = fadd double %.517.us.us.2, %.516.us.us.3
-  store double %.517.us.us.3, ptr %sunkaddr119, align 8
+  store double %.517.us.us.3, ptr %sunkaddr127, align 8
   %.524.us.us.3 = tail call double @llvm.fabs.f64(double %.492.us.us.3)
   %.525.us.us.3 = fadd double %.525.us.us.2, %.524.us.us.3
-  store double %.525.us.us.3, ptr %sunkaddr120, align 8
+  store double %.525.us.us.3, ptr %sunkaddr128, align 8
   %.532.us.us.3 = fadd double %.532.us.us.2, %.492.us.us.3
-  store double %.532.us.us.3, ptr %sunkaddr121, align 8
+  store double %.532.us.us.3, ptr %sunkaddr129, align 8
   %niter20.ncmp.3 = icmp eq i64 %unroll_iter19, %.455.us.us.3
   br i1 %niter20.ncmp.3, label %B816.us.us.loopexit.unr-lcssa, label %B540.us.us
 
@@ -856,8 +1043,8 @@ B272.us.us:
   %arg.out.promoted.us.us258 = phi double [ %arg.out.promoted.us.us257.7, %B420.us.us.7 ], [ %arg.out.promoted.us.us, %B272.us.us.preheader ]
   %.303140.us.us = phi double [ %.303139.us.us.7, %B420.us.us.7 ], [ %arg.out.promoted.us.us, %B272.us.us.preheader ]
   %.264134136.us.us = phi i64 [ %.271.us.us.7, %B420.us.us.7 ], [ 0, %B272.us.us.preheader ]
-  %23 = shl i64 %.264134136.us.us, 3
-  %scevgep25 = getelementptr i8, ptr %scevgep23, i64 %23
+  %27 = shl i64 %.264134136.us.us, 3
+  %scevgep25 = getelementptr i8, ptr %scevgep23, i64 %27
   %scevgep26 = getelementptr i8, ptr %scevgep25, i64 -32
   %.302.us.us = load double, ptr %scevgep26, align 8
   %.303.us.us = tail call double @llvm.fabs.f64(double %.302.us.us)
@@ -982,23 +1169,23 @@ B420.us.us.7:
   br i1 %niter14.ncmp.7, label %B270.B422_crit_edge.us.us.unr-lcssa, label %B272.us.us
 
 B270.B422_crit_edge.us.us.unr-lcssa:
-  br i1 %9, label %B270.B422_crit_edge.us.us, label %B272.us.us.epil.preheader
+  br i1 %13, label %B270.B422_crit_edge.us.us, label %B272.us.us.epil.preheader
 
 B272.us.us.epil.preheader:
   %arg.out.promoted.us.us258.epil.init = phi double [ %arg.out.promoted.us.us, %B38.endif.us.us ], [ %arg.out.promoted.us.us257.7, %B270.B422_crit_edge.us.us.unr-lcssa ]
   %.303140.us.us.epil.init = phi double [ %arg.out.promoted.us.us, %B38.endif.us.us ], [ %.303139.us.us.7, %B270.B422_crit_edge.us.us.unr-lcssa ]
   %.264134136.us.us.epil.init = phi i64 [ 0, %B38.endif.us.us ], [ %unroll_iter13, %B270.B422_crit_edge.us.us.unr-lcssa ]
-  %24 = add i64 %.264134136.us.us.epil.init, %.156.us.us
-  %25 = shl i64 %24, 3
-  %scevgep41 = getelementptr i8, ptr %arg.rows.pn, i64 %25
+  %28 = add i64 %.264134136.us.us.epil.init, %.156.us.us
+  %29 = shl i64 %28, 3
+  %scevgep41 = getelementptr i8, ptr %arg.rows.pn, i64 %29
   br label %B272.us.us.epil
 
 B272.us.us.epil:
   %arg.out.promoted.us.us258.epil = phi double [ %arg.out.promoted.us.us258.epil.init, %B272.us.us.epil.preheader ], [ %arg.out.promoted.us.us257.epil, %B420.us.us.epil ]
   %.303140.us.us.epil = phi double [ %.303140.us.us.epil.init, %B272.us.us.epil.preheader ], [ %.303139.us.us.epil, %B420.us.us.epil ]
   %epil.iter9 = phi i64 [ 0, %B272.us.us.epil.preheader ], [ %epil.iter9.next, %B420.us.us.epil ]
-  %26 = shl nuw nsw i64 %epil.iter9, 3
-  %scevgep42 = getelementptr i8, ptr %scevgep41, i64 %26
+  %30 = shl nuw nsw i64 %epil.iter9, 3
+  %scevgep42 = getelementptr i8, ptr %scevgep41, i64 %30
   %.302.us.us.epil = load double, ptr %scevgep42, align 8
   %.303.us.us.epil = tail call double @llvm.fabs.f64(double %.302.us.us.epil)
   %.307.us.us.epil = fcmp ogt double %.303.us.us.epil, %.303140.us.us.epil
@@ -1015,7 +1202,7 @@ B420.us.us.epil:
   %.303139.us.us.epil = phi double [ %.303140.us.us.epil, %B272.us.us.epil ], [ %.303.us.us.epil, %B372.us.us.epil ]
   %epil.iter9.next = add i64 %epil.iter9, 1
   %epil.iter9.cmp.not = icmp eq i64 %xtraiter8, %epil.iter9.next
-  br i1 %epil.iter9.cmp.not, label %B270.B422_crit_edge.us.us, label %B272.us.us.epil, !llvm.loop !5
+  br i1 %epil.iter9.cmp.not, label %B270.B422_crit_edge.us.us, label %B272.us.us.epil, !llvm.loop !6
 
 B270.B422_crit_edge.us.us:
   %arg.out.promoted.us.us257.lcssa = phi double [ %arg.out.promoted.us.us257.7, %B270.B422_crit_edge.us.us.unr-lcssa ], [ %arg.out.promoted.us.us257.epil, %B420.us.us.epil ]
@@ -1024,88 +1211,163 @@ B270.B422_crit_edge.us.us:
   br i1 %.342.us.us, label %B440.us.us, label %B816.us.us
 
 B440:
-  %sunkaddr131 = getelementptr i8, ptr %lsr.iv106, i64 %sunkaddr130
-  %.347 = load double, ptr %sunkaddr131, align 8
+  %sunkaddr139 = getelementptr i8, ptr %lsr.iv106, i64 %sunkaddr138
+  %.347 = load double, ptr %sunkaddr139, align 8
   %.350 = load double, ptr %lsr.iv106, align 8
   %.353 = fcmp ogt double %.347, %.350
   br i1 %.353, label %B476.endif, label %B816
 
 B816:
-  %.342.1 = icmp slt i64 %lsr.iv104, %arg.count
+  %31 = add nsw i64 %lsr.iv104, -2
+  %.342.1 = icmp slt i64 %31, %arg.count
   br i1 %.342.1, label %B440.1, label %B816.1
 
 B440.1:
-  %scevgep112 = getelementptr i8, ptr %lsr.iv106, i64 %3
-  %.347.1 = load double, ptr %scevgep112, align 8
-  %sunkaddr133 = getelementptr i8, ptr %lsr.iv106, i64 %sunkaddr130
-  %.350.1 = load double, ptr %sunkaddr133, align 8
+  %scevgep120 = getelementptr i8, ptr %lsr.iv106, i64 %7
+  %.347.1 = load double, ptr %scevgep120, align 8
+  %sunkaddr141 = getelementptr i8, ptr %lsr.iv106, i64 %sunkaddr138
+  %.350.1 = load double, ptr %sunkaddr141, align 8
   %.353.1 = fcmp ogt double %.347.1, %.350.1
   br i1 %.353.1, label %B476.endif.1, label %B816.1
 
 B476.endif.1:
-  %.357.1 = load double, ptr %sunkaddr140, align 8
+  %.357.1 = load double, ptr %sunkaddr152, align 8
   %.358.1 = fadd double %.357.1, 1.000000e+00
-  store double %.358.1, ptr %sunkaddr140, align 8
+  store double %.358.1, ptr %sunkaddr152, align 8
   br label %B816.1
 
 B816.1:
-  %27 = or disjoint i64 %lsr.iv104, 1
-  %.342.2 = icmp slt i64 %27, %arg.count
-  br i1 %.342.2, label %B440.2, label %B816.2
+  %.342.2.not = icmp sgt i64 %lsr.iv104, %arg.count
+  br i1 %.342.2.not, label %B816.2, label %B440.2
 
 B440.2:
-  %scevgep111 = getelementptr i8, ptr %lsr.iv106, i64 %3
-  %scevgep109 = getelementptr i8, ptr %lsr.iv106, i64 %1
-  %.347.2 = load double, ptr %scevgep109, align 8
-  %.350.2 = load double, ptr %scevgep111, align 8
+  %scevgep119 = getelementptr i8, ptr %lsr.iv106, i64 %7
+  %scevgep118 = getelementptr i8, ptr %lsr.iv106, i64 %6
+  %.347.2 = load double, ptr %scevgep118, align 8
+  %.350.2 = load double, ptr %scevgep119, align 8
   %.353.2 = fcmp ogt double %.347.2, %.350.2
   br i1 %.353.2, label %B476.endif.2, label %B816.2
 
 B476.endif.2:
-  %.357.2 = load double, ptr %sunkaddr140, align 8
+  %.357.2 = load double, ptr %sunkaddr152, align 8
   %.358.2 = fadd double %.357.2, 1.000000e+00
-  store double %.358.2, ptr %sunkaddr140, align 8
+  store double %.358.2, ptr %sunkaddr152, align 8
   br label %B816.2
 
 B816.2:
-  %28 = add nuw nsw i64 %lsr.iv104, 2
-  %.342.3 = icmp slt i64 %28, %arg.count
+  %.342.3 = icmp slt i64 %lsr.iv104, %arg.count
   br i1 %.342.3, label %B440.3, label %B816.3
 
 B440.3:
-  %scevgep108 = getelementptr i8, ptr %lsr.iv106, i64 %1
-  %scevgep110 = getelementptr i8, ptr %lsr.iv106, i64 %2
-  %.347.3 = load double, ptr %scevgep110, align 8
-  %.350.3 = load double, ptr %scevgep108, align 8
+  %scevgep117 = getelementptr i8, ptr %lsr.iv106, i64 %6
+  %scevgep116 = getelementptr i8, ptr %lsr.iv106, i64 %5
+  %.347.3 = load double, ptr %scevgep116, align 8
+  %.350.3 = load double, ptr %scevgep117, align 8
   %.353.3 = fcmp ogt double %.347.3, %.350.3
   br i1 %.353.3, label %B476.endif.3, label %B816.3
 
 B476.endif.3:
-  %.357.3 = load double, ptr %sunkaddr140, align 8
+  %.357.3 = load double, ptr %sunkaddr152, align 8
   %.358.3 = fadd double %.357.3, 1.000000e+00
-  store double %.358.3, ptr %sunkaddr140, align 8
+  store double %.358.3, ptr %sunkaddr152, align 8
   br label %B816.3
 
 B816.3:
-  %lsr.iv.next105 = add nuw nsw i64 %lsr.iv104, 4
+  %32 = or disjoint i64 %lsr.iv104, 1
+  %.342.4 = icmp slt i64 %32, %arg.count
+  br i1 %.342.4, label %B440.4, label %B816.4
+
+B440.4:
+  %scevgep115 = getelementptr i8, ptr %lsr.iv106, i64 %5
+  %scevgep114 = getelementptr i8, ptr %lsr.iv106, i64 %4
+  %.347.4 = load double, ptr %scevgep114, align 8
+  %.350.4 = load double, ptr %scevgep115, align 8
+  %.353.4 = fcmp ogt double %.347.4, %.350.4
+  br i1 %.353.4, label %B476.endif.4, label %B816.4
+
+B476.endif.4:
+  %.357.4 = load double, ptr %sunkaddr152, align 8
+  %.358.4 = fadd double %.357.4, 1.000000e+00
+  store double %.358.4, ptr %sunkaddr152, align 8
+  br label %B816.4
+
+B816.4:
+  %33 = or disjoint i64 %lsr.iv104, 2
+  %.342.5 = icmp slt i64 %33, %arg.count
+  br i1 %.342.5, label %B440.5, label %B816.5
+
+B440.5:
+  %scevgep113 = getelementptr i8, ptr %lsr.iv106, i64 %4
+  %scevgep112 = getelementptr i8, ptr %lsr.iv106, i64 %3
+  %.347.5 = load double, ptr %scevgep112, align 8
+  %.350.5 = load double, ptr %scevgep113, align 8
+  %.353.5 = fcmp ogt double %.347.5, %.350.5
+  br i1 %.353.5, label %B476.endif.5, label %B816.5
+
+B476.endif.5:
+  %.357.5 = load double, ptr %sunkaddr152, align 8
+  %.358.5 = fadd double %.357.5, 1.000000e+00
+  store double %.358.5, ptr %sunkaddr152, align 8
+  br label %B816.5
+
+B816.5:
+  %34 = or disjoint i64 %lsr.iv104, 3
+  %.342.6 = icmp slt i64 %34, %arg.count
+  br i1 %.342.6, label %B440.6, label %B816.6
+
+B440.6:
+  %scevgep111 = getelementptr i8, ptr %lsr.iv106, i64 %3
+  %scevgep109 = getelementptr i8, ptr %lsr.iv106, i64 %1
+  %.347.6 = load double, ptr %scevgep109, align 8
+  %.350.6 = load double, ptr %scevgep111, align 8
+  %.353.6 = fcmp ogt double %.347.6, %.350.6
+  br i1 %.353.6, label %B476.endif.6, label %B816.6
+
+B476.endif.6:
+  %.357.6 = load double, ptr %sunkaddr152, align 8
+  %.358.6 = fadd double %.357.6, 1.000000e+00
+  store double %.358.6, ptr %sunkaddr152, align 8
+  br label %B816.6
+
+B816.6:
+  %35 = add nuw nsw i64 %lsr.iv104, 4
+  %.342.7 = icmp slt i64 %35, %arg.count
+  br i1 %.342.7, label %B440.7, label %B816.7
+
+B440.7:
+  %scevgep108 = getelementptr i8, ptr %lsr.iv106, i64 %1
+  %scevgep110 = getelementptr i8, ptr %lsr.iv106, i64 %2
+  %.347.7 = load double, ptr %scevgep110, align 8
+  %.350.7 = load double, ptr %scevgep108, align 8
+  %.353.7 = fcmp ogt double %.347.7, %.350.7
+  br i1 %.353.7, label %B476.endif.7, label %B816.7
+
+B476.endif.7:
+  %.357.7 = load double, ptr %sunkaddr152, align 8
+  %.358.7 = fadd double %.357.7, 1.000000e+00
+  store double %.358.7, ptr %sunkaddr152, align 8
+  br label %B816.7
+
+B816.7:
+  %lsr.iv.next105 = add nuw nsw i64 %lsr.iv104, 8
   %scevgep107 = getelementptr i8, ptr %lsr.iv106, i64 %2
-  %29 = sub nsw i64 %lsr.iv.next105, %4
-  %niter.ncmp.3 = icmp eq i64 %29, 2
-  br i1 %niter.ncmp.3, label %B820.loopexit6.unr-lcssa, label %B38.endif
+  %36 = sub nsw i64 %lsr.iv.next105, %8
+  %niter.ncmp.7 = icmp eq i64 %36, 4
+  br i1 %niter.ncmp.7, label %B820.loopexit6.unr-lcssa, label %B38.endif
 
 B820.loopexit6.unr-lcssa:
   %lcmp.mod.not = icmp eq i64 %xtraiter, 0
   br i1 %lcmp.mod.not, label %B820, label %B38.endif.epil.preheader
 
 B38.endif.epil.preheader:
-  %.pre-phi = phi i64 [ %.pre, %B38.endif.preheader.B38.endif.epil.preheader_crit_edge ], [ %sunkaddr130, %B820.loopexit6.unr-lcssa ]
-  %.111153167.epil.init = phi i64 [ 0, %B38.endif.preheader.B38.endif.epil.preheader_crit_edge ], [ %4, %B820.loopexit6.unr-lcssa ]
-  %30 = shl i64 %.111153167.epil.init, 3
-  %31 = or disjoint i64 %30, 8
-  %32 = mul i64 %31, %arg.width
+  %.pre-phi = phi i64 [ %.pre, %B38.endif.preheader.B38.endif.epil.preheader_crit_edge ], [ %sunkaddr138, %B820.loopexit6.unr-lcssa ]
+  %.111153167.epil.init = phi i64 [ 0, %B38.endif.preheader.B38.endif.epil.preheader_crit_edge ], [ %8, %B820.loopexit6.unr-lcssa ]
+  %37 = shl i64 %.111153167.epil.init, 3
+  %38 = or disjoint i64 %37, 8
+  %39 = mul i64 %38, %arg.width
   %factor.op.mul = mul i64 %arg.width, %.111153167.epil.init
   %.reass = shl i64 %factor.op.mul, 3
-  %sunkaddr139 = getelementptr i8, ptr %arg.out, i64 8
+  %sunkaddr151 = getelementptr i8, ptr %arg.out, i64 8
   br label %B38.endif.epil
 
 B38.endif.epil:
@@ -1117,39 +1379,40 @@ B38.endif.epil:
   br i1 %.342.epil, label %B440.epil, label %B816.epil
 
 B440.epil:
-  %scevgep99 = getelementptr i8, ptr %lsr.iv96, i64 %32
+  %scevgep99 = getelementptr i8, ptr %lsr.iv96, i64 %39
   %.347.epil = load double, ptr %scevgep99, align 8
-  %sunkaddr138 = getelementptr i8, ptr %lsr.iv96, i64 %.reass
-  %.350.epil = load double, ptr %sunkaddr138, align 8
+  %sunkaddr150 = getelementptr i8, ptr %lsr.iv96, i64 %.reass
+  %.350.epil = load double, ptr %sunkaddr150, align 8
   %.353.epil = fcmp ogt double %.347.epil, %.350.epil
   br i1 %.353.epil, label %B476.endif.epil, label %B816.epil
 
 B476.endif.epil:
-  %.357.epil = load double, ptr %sunkaddr139, align 8
+  %.357.epil = load double, ptr %sunkaddr151, align 8
   %.358.epil = fadd double %.357.epil, 1.000000e+00
-  store double %.358.epil, ptr %sunkaddr139, align 8
+  store double %.358.epil, ptr %sunkaddr151, align 8
   br label %B816.epil
 
 B816.epil:
   %scevgep97 = getelementptr i8, ptr %lsr.iv96, i64 %.pre-phi
   %lsr.iv.next103 = add nsw i64 %lsr.iv102, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next103, 0
-  br i1 %epil.iter.cmp.not, label %B820, label %B38.endif.epil, !llvm.loop !6
+  br i1 %epil.iter.cmp.not, label %B820, label %B38.endif.epil, !llvm.loop !7
 
 B820:
   store ptr null, ptr %retptr, align 8
   ret i32 0
 
 B38.endif:
-  %lsr.iv106 = phi ptr [ %scevgep107, %B816.3 ], [ %arg.rows, %B38.endif.preheader.new ]
-  %lsr.iv104 = phi i64 [ %lsr.iv.next105, %B816.3 ], [ 2, %B38.endif.preheader.new ]
-  %.342.not = icmp sgt i64 %lsr.iv104, %arg.count
-  br i1 %.342.not, label %B816, label %B440
+  %lsr.iv106 = phi ptr [ %scevgep107, %B816.7 ], [ %arg.rows, %B38.endif.preheader.new ]
+  %lsr.iv104 = phi i64 [ %lsr.iv.next105, %B816.7 ], [ 4, %B38.endif.preheader.new ]
+  %40 = add nsw i64 %lsr.iv104, -3
+  %.342 = icmp slt i64 %40, %arg.count
+  br i1 %.342, label %B440, label %B816
 
 B476.endif:
-  %.357 = load double, ptr %sunkaddr140, align 8
+  %.357 = load double, ptr %sunkaddr152, align 8
   %.358 = fadd double %.357, 1.000000e+00
-  store double %.358, ptr %sunkaddr140, align 8
+  store double %.358, ptr %sunkaddr152, align 8
   br label %B816
 }
 
@@ -1158,7 +1421,7 @@ define ptr @totals(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, i64 %.5
 entry:
   %.8 = alloca ptr, align 8
   store ptr null, ptr %.8, align 8
-  %.12 = call i32 @_ZN18biped_adrc_kernels6totalsB4v123B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr nonnull %.8, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, i64 %.4, i64 %.5, ptr %.6) #0
+  %.12 = call i32 @_ZN18biped_adrc_kernels6totalsB4v124B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr nonnull %.8, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, i64 %.4, i64 %.5, ptr %.6) #0
   %.22 = load ptr, ptr %.8, align 8
   ret ptr %.22
 }
@@ -1173,9 +1436,10 @@ attributes #3 = { nounwind }
 attributes #4 = { nounwind }
 
 !0 = !{!"branch_weights", i32 49, i32 1}
-!1 = distinct !{!1, !2}
-!2 = !{!"llvm.loop.peeled.count", i32 1}
-!3 = distinct !{!3, !4}
-!4 = !{!"llvm.loop.unroll.disable"}
-!5 = distinct !{!5, !4}
-!6 = distinct !{!6, !4}
+!1 = !{!"branch_weights", i32 1, i32 49, i32 49}
+!2 = distinct !{!2, !3}
+!3 = !{!"llvm.loop.peeled.count", i32 1}
+!4 = distinct !{!4, !5}
+!5 = !{!"llvm.loop.unroll.disable"}
+!6 = distinct !{!6, !5}
+!7 = distinct !{!7, !5}
