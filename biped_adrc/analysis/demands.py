@@ -79,6 +79,25 @@ def keep_worst(numbers: Array, count: int, worst: Array, begins: bool) -> None:
 
 
 @unit
+def edges(rows: Array, width: int, at: Ints, count: int, supports: int, first: Ints) -> None:
+    """Write the first node of each of the S = `supports` single supports, and K, to first (S + 1,).
+
+    rows (K, width), K = count: the nodes, in the order of time. at: where in a row each column begins.
+    """
+    low = 0
+    for s in range(supports):
+        number, high = rows[at[STEP]] + s, count
+        while low < high:  # the first node of this number, or of a later one, is from low to high
+            middle = (low + high) // 2
+            if rows[middle * width + at[STEP]] < number:
+                low = middle + 1
+            else:
+                high = middle
+        first[s] = low
+    first[supports] = count
+
+
+@unit
 def demands(
     rows: Array,
     width: int,

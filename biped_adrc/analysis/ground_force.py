@@ -83,7 +83,10 @@ class Nodes:
     @cached_property
     def edges(self) -> Indices:
         """Index of the first node of each single support, and K behind them: (S + 1,)."""
-        return np.searchsorted(self.at.step, [*self.steps, self.steps.stop])
+        first = np.empty(len(self.steps) + 1, dtype=np.int64)
+        *place, _ = self.pointers
+        _loops().edges(*place, len(self.rows), len(self.steps), first.ctypes.data)
+        return first
 
     @property
     def last(self) -> Indices:
@@ -141,7 +144,7 @@ LOOPS = (
 def _loops() -> Any:
     """The functions of `analysis.demands`, compiled, which get arrays by address."""
     # LOOPS: the modules with these functions; the numbers count their arguments
-    return compiled(LOOPS, demands=10, totals=6)
+    return compiled(LOOPS, edges=6, demands=10, totals=6)
 
 
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> tuple[Array, Array]:

@@ -155,6 +155,8 @@ def known_name(kind: str, name: str) -> str:
     A package.module:Class, and the file of a robot or a gait, are unchanged. Raises InputError for an unknown
     name, with the known ones that are most alike.
     """
+    if name in REGISTRY[kind]:
+        return name
     known = next((x for x in names(kind) if _plain(x) == _plain(name)), name)
     if known in REGISTRY[kind] or is_own(known) or kind in ("robot", "gait"):
         return known

@@ -1,17 +1,215 @@
-; sources 56b5926446519c62237de8d402538bfc, text 3ba5279c93554d25d2ac78fcbbf1e34c
+; sources dccaaf1fabcb06222f6385067d9fe639, text 02accc760a2440f968ffbd4fa2933ff6
 
 
-@_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5edgesB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx8int64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels7demandsB4v122B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_min12_3clocals_3e4implB2v5B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels5loadsB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_int12_3clocals_3e4implB3v88B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dEd = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v87B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
 @_ZN08NumbaEnv5numba7cpython8builtins6ol_max12_3clocals_3e4implB3v60B54c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAw4hWqFpgsIBZmgA_3dE15StarArgUniTupleIdLi2EE = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels10keep_worstB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab = weak local_unnamed_addr global ptr null
-@_ZN08NumbaEnv18biped_adrc_kernels6totalsB4v124B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels10keep_worstB4v124B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab = weak local_unnamed_addr global ptr null
+@_ZN08NumbaEnv18biped_adrc_kernels6totalsB4v125B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a = weak local_unnamed_addr global ptr null
 
 
-define i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.first, i64 %arg.supports, i64 %arg.impacts, ptr readonly %arg.known, ptr %arg.out, ptr %arg.worst) local_unnamed_addr #0 {
+define i32 @_ZN18biped_adrc_kernels5edgesB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx8int64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.count, i64 %arg.supports, ptr writeonly %arg.first) local_unnamed_addr #0 {
+B0.endif:
+  %.10788.not = icmp slt i64 %arg.supports, 1
+  br i1 %.10788.not, label %B216, label %B40.lr.ph
+
+B40.lr.ph:
+  %xtraiter = and i64 %arg.supports, 3
+  %0 = icmp samesign ult i64 %arg.supports, 4
+  br i1 %0, label %B40.epil.preheader, label %B40.lr.ph.new
+
+B40.lr.ph.new:
+  %unroll_iter = and i64 %arg.supports, 9223372036854775804
+  %sunkaddr = getelementptr i8, ptr %arg.at, i64 8
+  br label %B40
+
+B40:
+  %low.2.091 = phi i64 [ 0, %B40.lr.ph.new ], [ %low.3.2.3, %B204.3 ]
+  %.1138789 = phi i64 [ 0, %B40.lr.ph.new ], [ %.120.3, %B204.3 ]
+  %.120 = or disjoint i64 %.1138789, 1
+  %.158 = load i64, ptr %sunkaddr, align 8
+  %.160 = getelementptr double, ptr %arg.rows, i64 %.158
+  %.161 = load double, ptr %.160, align 8
+  %.163 = uitofp nneg i64 %.1138789 to double
+  %.164 = fadd double %.161, %.163
+  %.173 = icmp slt i64 %low.2.091, %arg.count
+  br i1 %.173, label %B102.else.if, label %B204
+
+B204:
+  %low.3.2 = phi i64 [ %low.2.091, %B40 ], [ %low.4.3, %B102.else.if ]
+  %.304 = getelementptr i64, ptr %arg.first, i64 %.1138789
+  store i64 %low.3.2, ptr %.304, align 8
+  %.120.1 = or disjoint i64 %.1138789, 2
+  %.158.1 = load i64, ptr %sunkaddr, align 8
+  %.160.1 = getelementptr double, ptr %arg.rows, i64 %.158.1
+  %.161.1 = load double, ptr %.160.1, align 8
+  %.163.1 = uitofp nneg i64 %.120 to double
+  %.164.1 = fadd double %.161.1, %.163.1
+  %.173.1 = icmp slt i64 %low.3.2, %arg.count
+  br i1 %.173.1, label %B102.else.if.1, label %B204.1
+
+B102.else.if.1:
+  %low.5.1.1 = phi i64 [ %low.4.3.1, %B102.else.if.1 ], [ %low.3.2, %B204 ]
+  %high.2.1.1 = phi i64 [ %high.3.3.1, %B102.else.if.1 ], [ %arg.count, %B204 ]
+  %.184.1 = add nuw nsw i64 %high.2.1.1, %low.5.1.1
+  %.192.1.1 = lshr i64 %.184.1, 1
+  %.230.1 = mul nsw i64 %.192.1.1, %arg.width
+  %gep.1 = getelementptr double, ptr %.160.1, i64 %.230.1
+  %.237.1 = load double, ptr %gep.1, align 8
+  %.239.1 = fcmp olt double %.237.1, %.164.1
+  %.250.1 = add nuw nsw i64 %.192.1.1, 1
+  %high.3.3.1 = select i1 %.239.1, i64 %high.2.1.1, i64 %.192.1.1
+  %low.4.3.1 = select i1 %.239.1, i64 %.250.1, i64 %low.5.1.1
+  %.281.1 = icmp slt i64 %low.4.3.1, %high.3.3.1
+  br i1 %.281.1, label %B102.else.if.1, label %B204.1
+
+B204.1:
+  %low.3.2.1 = phi i64 [ %low.3.2, %B204 ], [ %low.4.3.1, %B102.else.if.1 ]
+  %.304.1 = getelementptr i64, ptr %arg.first, i64 %.120
+  store i64 %low.3.2.1, ptr %.304.1, align 8
+  %.120.2 = or disjoint i64 %.1138789, 3
+  %.158.2 = load i64, ptr %sunkaddr, align 8
+  %.160.2 = getelementptr double, ptr %arg.rows, i64 %.158.2
+  %.161.2 = load double, ptr %.160.2, align 8
+  %.163.2 = uitofp nneg i64 %.120.1 to double
+  %.164.2 = fadd double %.161.2, %.163.2
+  %.173.2 = icmp slt i64 %low.3.2.1, %arg.count
+  br i1 %.173.2, label %B102.else.if.2, label %B204.2
+
+B102.else.if.2:
+  %low.5.1.2 = phi i64 [ %low.4.3.2, %B102.else.if.2 ], [ %low.3.2.1, %B204.1 ]
+  %high.2.1.2 = phi i64 [ %high.3.3.2, %B102.else.if.2 ], [ %arg.count, %B204.1 ]
+  %.184.2 = add nuw nsw i64 %high.2.1.2, %low.5.1.2
+  %.192.1.2 = lshr i64 %.184.2, 1
+  %.230.2 = mul nsw i64 %.192.1.2, %arg.width
+  %gep.2 = getelementptr double, ptr %.160.2, i64 %.230.2
+  %.237.2 = load double, ptr %gep.2, align 8
+  %.239.2 = fcmp olt double %.237.2, %.164.2
+  %.250.2 = add nuw nsw i64 %.192.1.2, 1
+  %high.3.3.2 = select i1 %.239.2, i64 %high.2.1.2, i64 %.192.1.2
+  %low.4.3.2 = select i1 %.239.2, i64 %.250.2, i64 %low.5.1.2
+  %.281.2 = icmp slt i64 %low.4.3.2, %high.3.3.2
+  br i1 %.281.2, label %B102.else.if.2, label %B204.2
+
+B204.2:
+  %low.3.2.2 = phi i64 [ %low.3.2.1, %B204.1 ], [ %low.4.3.2, %B102.else.if.2 ]
+  %.304.2 = getelementptr i64, ptr %arg.first, i64 %.120.1
+  store i64 %low.3.2.2, ptr %.304.2, align 8
+  %.120.3 = add nuw nsw i64 %.1138789, 4
+  %.158.3 = load i64, ptr %sunkaddr, align 8
+  %.160.3 = getelementptr double, ptr %arg.rows, i64 %.158.3
+  %.161.3 = load double, ptr %.160.3, align 8
+  %.163.3 = uitofp nneg i64 %.120.2 to double
+  %.164.3 = fadd double %.161.3, %.163.3
+  %.173.3 = icmp slt i64 %low.3.2.2, %arg.count
+  br i1 %.173.3, label %B102.else.if.3, label %B204.3
+
+B102.else.if.3:
+  %low.5.1.3 = phi i64 [ %low.4.3.3, %B102.else.if.3 ], [ %low.3.2.2, %B204.2 ]
+  %high.2.1.3 = phi i64 [ %high.3.3.3, %B102.else.if.3 ], [ %arg.count, %B204.2 ]
+  %.184.3 = add nuw nsw i64 %high.2.1.3, %low.5.1.3
+  %.192.1.3 = lshr i64 %.184.3, 1
+  %.230.3 = mul nsw i64 %.192.1.3, %arg.width
+  %gep.3 = getelementptr double, ptr %.160.3, i64 %.230.3
+  %.237.3 = load double, ptr %gep.3, align 8
+  %.239.3 = fcmp olt double %.237.3, %.164.3
+  %.250.3 = add nuw nsw i64 %.192.1.3, 1
+  %high.3.3.3 = select i1 %.239.3, i64 %high.2.1.3, i64 %.192.1.3
+  %low.4.3.3 = select i1 %.239.3, i64 %.250.3, i64 %low.5.1.3
+  %.281.3 = icmp slt i64 %low.4.3.3, %high.3.3.3
+  br i1 %.281.3, label %B102.else.if.3, label %B204.3
+
+B204.3:
+  %low.3.2.3 = phi i64 [ %low.3.2.2, %B204.2 ], [ %low.4.3.3, %B102.else.if.3 ]
+  %.304.3 = getelementptr i64, ptr %arg.first, i64 %.120.2
+  store i64 %low.3.2.3, ptr %.304.3, align 8
+  %niter.ncmp.3 = icmp eq i64 %.120.3, %unroll_iter
+  br i1 %niter.ncmp.3, label %B216.loopexit.unr-lcssa, label %B40
+
+B216.loopexit.unr-lcssa:
+  %lcmp.mod.not = icmp eq i64 %xtraiter, 0
+  br i1 %lcmp.mod.not, label %B216, label %B40.epil.preheader
+
+B40.epil.preheader:
+  %low.2.091.epil.init = phi i64 [ 0, %B40.lr.ph ], [ %low.3.2.3, %B216.loopexit.unr-lcssa ]
+  %.1138789.epil.init = phi i64 [ 0, %B40.lr.ph ], [ %unroll_iter, %B216.loopexit.unr-lcssa ]
+  %sunkaddr5 = getelementptr i8, ptr %arg.at, i64 8
+  br label %B40.epil
+
+B40.epil:
+  %low.2.091.epil = phi i64 [ %low.2.091.epil.init, %B40.epil.preheader ], [ %low.3.2.epil, %B204.epil ]
+  %.1138789.epil = phi i64 [ %.1138789.epil.init, %B40.epil.preheader ], [ %.120.epil, %B204.epil ]
+  %epil.iter = phi i64 [ 0, %B40.epil.preheader ], [ %epil.iter.next, %B204.epil ]
+  %.120.epil = add nuw nsw i64 %.1138789.epil, 1
+  %.158.epil = load i64, ptr %sunkaddr5, align 8
+  %.160.epil = getelementptr double, ptr %arg.rows, i64 %.158.epil
+  %.161.epil = load double, ptr %.160.epil, align 8
+  %.163.epil = uitofp nneg i64 %.1138789.epil to double
+  %.164.epil = fadd double %.161.epil, %.163.epil
+  %.173.epil = icmp slt i64 %low.2.091.epil, %arg.count
+  br i1 %.173.epil, label %B102.else.if.epil, label %B204.epil
+
+B102.else.if.epil:
+  %low.5.1.epil = phi i64 [ %low.4.3.epil, %B102.else.if.epil ], [ %low.2.091.epil, %B40.epil ]
+  %high.2.1.epil = phi i64 [ %high.3.3.epil, %B102.else.if.epil ], [ %arg.count, %B40.epil ]
+  %.184.epil = add nuw nsw i64 %high.2.1.epil, %low.5.1.epil
+  %.192.1.epil = lshr i64 %.184.epil, 1
+  %.230.epil = mul nsw i64 %.192.1.epil, %arg.width
+  %gep.epil = getelementptr double, ptr %.160.epil, i64 %.230.epil
+  %.237.epil = load double, ptr %gep.epil, align 8
+  %.239.epil = fcmp olt double %.237.epil, %.164.epil
+  %.250.epil = add nuw nsw i64 %.192.1.epil, 1
+  %high.3.3.epil = select i1 %.239.epil, i64 %high.2.1.epil, i64 %.192.1.epil
+  %low.4.3.epil = select i1 %.239.epil, i64 %.250.epil, i64 %low.5.1.epil
+  %.281.epil = icmp slt i64 %low.4.3.epil, %high.3.3.epil
+  br i1 %.281.epil, label %B102.else.if.epil, label %B204.epil
+
+B204.epil:
+  %low.3.2.epil = phi i64 [ %low.2.091.epil, %B40.epil ], [ %low.4.3.epil, %B102.else.if.epil ]
+  %.304.epil = getelementptr i64, ptr %arg.first, i64 %.1138789.epil
+  store i64 %low.3.2.epil, ptr %.304.epil, align 8
+  %epil.iter.next = add i64 %epil.iter, 1
+  %epil.iter.cmp.not = icmp eq i64 %epil.iter.next, %xtraiter
+  br i1 %epil.iter.cmp.not, label %B216, label %B40.epil, !llvm.loop !0
+
+B216:
+  %.326 = getelementptr i64, ptr %arg.first, i64 %arg.supports
+  store i64 %arg.count, ptr %.326, align 8
+  store ptr null, ptr %retptr, align 8
+  ret i32 0
+
+B102.else.if:
+  %low.5.1 = phi i64 [ %low.4.3, %B102.else.if ], [ %low.2.091, %B40 ]
+  %high.2.1 = phi i64 [ %high.3.3, %B102.else.if ], [ %arg.count, %B40 ]
+  %.184 = add nuw nsw i64 %high.2.1, %low.5.1
+  %.192.1 = lshr i64 %.184, 1
+  %.230 = mul nsw i64 %.192.1, %arg.width
+  %gep = getelementptr double, ptr %.160, i64 %.230
+  %.237 = load double, ptr %gep, align 8
+  %.239 = fcmp olt double %.237, %.164
+  %.250 = add nuw nsw i64 %.192.1, 1
+  %high.3.3 = select i1 %.239, i64 %high.2.1, i64 %.192.1
+  %low.4.3 = select i1 %.239, i64 %.250, i64 %low.5.1
+  %.281 = icmp slt i64 %low.4.3, %high.3.3
+  br i1 %.281, label %B102.else.if, label %B204
+}
+
+
+define ptr @edges(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, i64 %.5, ptr writeonly %.6) local_unnamed_addr #1 {
+entry:
+  %.8 = alloca ptr, align 8
+  store ptr null, ptr %.8, align 8
+  %.12 = call i32 @_ZN18biped_adrc_kernels5edgesB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx8int64_2a(ptr nonnull %.8, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, i64 %.4, i64 %.5, ptr %.6) #2
+  %.22 = load ptr, ptr %.8, align 8
+  ret ptr %.22
+}
+
+
+define i32 @_ZN18biped_adrc_kernels7demandsB4v122B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.first, i64 %arg.supports, i64 %arg.impacts, ptr readonly %arg.known, ptr %arg.out, ptr %arg.worst) local_unnamed_addr #2 {
 B0.endif:
   %.673 = alloca ptr, align 8
   store ptr null, ptr %.673, align 8
@@ -117,9 +315,9 @@ B874:
   store double 0.000000e+00, ptr %.659, align 8
   %.667 = getelementptr double, ptr %1, i64 %.520217219
   store ptr null, ptr %.673, align 8
-  %.677 = call i32 @_ZN18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.673, ptr nonnull %excinfo.2, ptr nonnull %.563, ptr %arg.at, i64 %arg.p, ptr %.146, ptr %.667, i64 %.32)
+  %.677 = call i32 @_ZN18biped_adrc_kernels5loadsB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.673, ptr nonnull %excinfo.2, ptr nonnull %.563, ptr %arg.at, i64 %arg.p, ptr %.146, ptr %.667, i64 %.32)
   %cond = icmp eq i32 %.677, 0
-  br i1 %cond, label %B874.endif, label %common.ret, !prof !0
+  br i1 %cond, label %B874.endif, label %common.ret, !prof !2
 
 B1442:
   %.716 = add nsw i64 %i.2.1224, 1
@@ -240,11 +438,11 @@ B2228:
   %.1161 = load i64, ptr %sunkaddr79, align 8
   %.1163 = icmp eq i64 %.520217219, %.1161
   %.1171 = zext i1 %.1163 to i8
-  %.1172 = call i32 @_ZN18biped_adrc_kernels10keep_worstB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr nonnull %.1167, ptr nonnull %excinfo.5, ptr nonnull %.651, i64 %.32, ptr %.1157, i8 %.1171)
+  %.1172 = call i32 @_ZN18biped_adrc_kernels10keep_worstB4v124B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr nonnull %.1167, ptr nonnull %excinfo.5, ptr nonnull %.651, i64 %.32, ptr %.1157, i8 %.1171)
   switch i32 %.1172, label %common.ret [
     i32 -2, label %B872.backedge
     i32 0, label %B872.backedge
-  ], !prof !1
+  ], !prof !3
 
 B872.backedge:
   %.514 = icmp sgt i64 %.513216220, 1
@@ -326,107 +524,7 @@ B1998.endif:
 }
 
 
-declare double @llvm.fabs.f64(double) #1
-
-
-define ptr @demands(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, ptr readonly %.5, i64 %.6, i64 %.7, ptr readonly %.8, ptr %.9, ptr %.10) local_unnamed_addr #0 {
-entry:
-  %.12 = alloca ptr, align 8
-  store ptr null, ptr %.12, align 8
-  %excinfo = alloca ptr, align 8
-  %.16 = call i32 @_ZN18biped_adrc_kernels7demandsB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a(ptr nonnull %.12, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3, i64 %.4, ptr %.5, i64 %.6, i64 %.7, ptr %.8, ptr %.9, ptr %.10) #0
-  %cond = icmp eq i32 %.16, 0
-  br i1 %cond, label %common.ret, label %entry.if, !prof !0
-
-entry.if:
-  tail call void @llvm.trap()
-  unreachable
-
-common.ret:
-  %.26 = load ptr, ptr %.12, align 8
-  ret ptr %.26
-}
-
-
-define void @numba_gil_ensure(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define noalias nonnull ptr @PyUnicode_FromString(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @PyErr_WriteUnraisable(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @Py_DecRef(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @numba_gil_release(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @PyErr_Clear() local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define noalias nonnull ptr @PyBytes_FromStringAndSize(ptr readnone %0, i64 %1) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define noalias nonnull ptr @numba_unpickle(ptr readnone %0, i32 %1, ptr readnone %2) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @PyErr_SetString(ptr readnone %0, ptr readnone %1) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define noalias nonnull ptr @numba_runtime_build_excinfo_struct(ptr readnone %0, ptr readnone %1) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @NRT_Free(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @numba_do_raise(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define void @PyErr_SetNone(ptr readnone %0) local_unnamed_addr #2 {
-  tail call void @llvm.trap()
-  unreachable
-}
-
-
-define linkonce_odr i32 @_ZN18biped_adrc_kernels5loadsB4v122B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.row, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.joints, ptr initializes((0, 8)) %arg.out, i64 %arg.count) local_unnamed_addr #0 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels5loadsB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.row, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.joints, ptr initializes((0, 8)) %arg.out, i64 %arg.count) local_unnamed_addr #2 {
 B0.endif.endif:
   store double 0.000000e+00, ptr %arg.out, align 8
   %.144.1 = getelementptr double, ptr %arg.out, i64 %arg.count
@@ -603,11 +701,11 @@ B566.us.2:
 
 B606.us.2:
   %exitcond.not = icmp eq i64 %arg.p, %.245.us
-  br i1 %exitcond.not, label %common.ret, label %B516.us, !llvm.loop !2
+  br i1 %exitcond.not, label %common.ret, label %B516.us, !llvm.loop !4
 }
 
 
-define linkonce_odr i32 @_ZN18biped_adrc_kernels10keep_worstB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.numbers, i64 %arg.count, ptr %arg.worst, i8 %arg.begins) local_unnamed_addr #0 {
+define linkonce_odr i32 @_ZN18biped_adrc_kernels10keep_worstB4v124B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.numbers, i64 %arg.count, ptr %arg.worst, i8 %arg.begins) local_unnamed_addr #2 {
 entry:
   %.10.not = icmp eq i8 %arg.begins, 0
   %.152.us = load double, ptr %arg.numbers, align 8
@@ -772,7 +870,107 @@ B208:
 }
 
 
-define i32 @_ZN18biped_adrc_kernels6totalsB4v124B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, i64 %arg.count, ptr %arg.out) local_unnamed_addr #3 {
+declare double @llvm.fabs.f64(double) #3
+
+
+define ptr @demands(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, ptr readonly %.5, i64 %.6, i64 %.7, ptr readonly %.8, ptr %.9, ptr %.10) local_unnamed_addr #2 {
+entry:
+  %.12 = alloca ptr, align 8
+  store ptr null, ptr %.12, align 8
+  %excinfo = alloca ptr, align 8
+  %.16 = call i32 @_ZN18biped_adrc_kernels7demandsB4v122B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a(ptr nonnull %.12, ptr nonnull %excinfo, ptr %.1, i64 %.2, ptr %.3, i64 %.4, ptr %.5, i64 %.6, i64 %.7, ptr %.8, ptr %.9, ptr %.10) #2
+  %cond = icmp eq i32 %.16, 0
+  br i1 %cond, label %common.ret, label %entry.if, !prof !2
+
+entry.if:
+  tail call void @llvm.trap()
+  unreachable
+
+common.ret:
+  %.26 = load ptr, ptr %.12, align 8
+  ret ptr %.26
+}
+
+
+define void @numba_gil_ensure(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define noalias nonnull ptr @PyUnicode_FromString(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @PyErr_WriteUnraisable(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @Py_DecRef(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @numba_gil_release(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @PyErr_Clear() local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define noalias nonnull ptr @PyBytes_FromStringAndSize(ptr readnone %0, i64 %1) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define noalias nonnull ptr @numba_unpickle(ptr readnone %0, i32 %1, ptr readnone %2) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @PyErr_SetString(ptr readnone %0, ptr readnone %1) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define noalias nonnull ptr @numba_runtime_build_excinfo_struct(ptr readnone %0, ptr readnone %1) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @NRT_Free(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @numba_do_raise(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define void @PyErr_SetNone(ptr readnone %0) local_unnamed_addr #4 {
+  tail call void @llvm.trap()
+  unreachable
+}
+
+
+define i32 @_ZN18biped_adrc_kernels6totalsB4v125B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, i64 %arg.count, ptr %arg.out) local_unnamed_addr #0 {
 B0.endif:
   %.105164.not = icmp slt i64 %arg.count, 1
   br i1 %.105164.not, label %B820, label %B38.endif.lr.ph
@@ -930,7 +1128,7 @@ B540.us.us.epil:
   store double %.532.us.us.epil, ptr %sunkaddr129, align 8
   %lsr.iv.next = add nuw nsw i64 %lsr.iv85, 8
   %epil.iter16.cmp.not = icmp eq i64 %11, %lsr.iv.next
-  br i1 %epil.iter16.cmp.not, label %B816.us.us, label %B540.us.us.epil, !llvm.loop !4
+  br i1 %epil.iter16.cmp.not, label %B816.us.us, label %B540.us.us.epil, !llvm.loop !6
 
 B816.us.us:
   %scevgep22 = getelementptr i8, ptr %lsr.iv, i64 %9
@@ -1202,7 +1400,7 @@ B420.us.us.epil:
   %.303139.us.us.epil = phi double [ %.303140.us.us.epil, %B272.us.us.epil ], [ %.303.us.us.epil, %B372.us.us.epil ]
   %epil.iter9.next = add i64 %epil.iter9, 1
   %epil.iter9.cmp.not = icmp eq i64 %xtraiter8, %epil.iter9.next
-  br i1 %epil.iter9.cmp.not, label %B270.B422_crit_edge.us.us, label %B272.us.us.epil, !llvm.loop !6
+  br i1 %epil.iter9.cmp.not, label %B270.B422_crit_edge.us.us, label %B272.us.us.epil, !llvm.loop !7
 
 B270.B422_crit_edge.us.us:
   %arg.out.promoted.us.us257.lcssa = phi double [ %arg.out.promoted.us.us257.7, %B270.B422_crit_edge.us.us.unr-lcssa ], [ %arg.out.promoted.us.us257.epil, %B420.us.us.epil ]
@@ -1396,7 +1594,7 @@ B816.epil:
   %scevgep97 = getelementptr i8, ptr %lsr.iv96, i64 %.pre-phi
   %lsr.iv.next103 = add nsw i64 %lsr.iv102, -1
   %epil.iter.cmp.not = icmp eq i64 %lsr.iv.next103, 0
-  br i1 %epil.iter.cmp.not, label %B820, label %B38.endif.epil, !llvm.loop !7
+  br i1 %epil.iter.cmp.not, label %B820, label %B38.endif.epil, !llvm.loop !8
 
 B820:
   store ptr null, ptr %retptr, align 8
@@ -1417,17 +1615,17 @@ B476.endif:
 }
 
 
-define ptr @totals(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, i64 %.5, ptr %.6) local_unnamed_addr #4 {
+define ptr @totals(ptr readonly %.1, i64 %.2, ptr readonly %.3, i64 %.4, i64 %.5, ptr %.6) local_unnamed_addr #1 {
 entry:
   %.8 = alloca ptr, align 8
   store ptr null, ptr %.8, align 8
-  %.12 = call i32 @_ZN18biped_adrc_kernels6totalsB4v124B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr nonnull %.8, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, i64 %.4, i64 %.5, ptr %.6) #0
+  %.12 = call i32 @_ZN18biped_adrc_kernels6totalsB4v125B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx10float64_2a(ptr nonnull %.8, ptr nonnull poison, ptr %.1, i64 %.2, ptr %.3, i64 %.4, i64 %.5, ptr %.6) #2
   %.22 = load ptr, ptr %.8, align 8
   ret ptr %.22
 }
 
 
-declare void @llvm.trap() #2
+declare void @llvm.trap() #4
 
 attributes #0 = { nounwind }
 attributes #1 = { nounwind }
@@ -1435,11 +1633,12 @@ attributes #2 = { nounwind }
 attributes #3 = { nounwind }
 attributes #4 = { nounwind }
 
-!0 = !{!"branch_weights", i32 49, i32 1}
-!1 = !{!"branch_weights", i32 1, i32 49, i32 49}
-!2 = distinct !{!2, !3}
-!3 = !{!"llvm.loop.peeled.count", i32 1}
+!0 = distinct !{!0, !1}
+!1 = !{!"llvm.loop.unroll.disable"}
+!2 = !{!"branch_weights", i32 49, i32 1}
+!3 = !{!"branch_weights", i32 1, i32 49, i32 49}
 !4 = distinct !{!4, !5}
-!5 = !{!"llvm.loop.unroll.disable"}
-!6 = distinct !{!6, !5}
-!7 = distinct !{!7, !5}
+!5 = !{!"llvm.loop.peeled.count", i32 1}
+!6 = distinct !{!6, !1}
+!7 = distinct !{!7, !1}
+!8 = distinct !{!8, !1}
