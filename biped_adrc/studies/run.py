@@ -24,9 +24,10 @@ have carried the walk (feasible), and if not why.
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from functools import partial
 from itertools import pairwise
-from threading import Lock
+from threading import RLock
 from typing import Any
 
 import numpy as np
@@ -73,8 +74,9 @@ OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
 """Columns of `analysis.ground_force.totals`."""
 _AT_ONCE = 400
 """Most impacts, over all walks in memory together: the nodes of a walk take some 80 kB for each impact."""
-_PREPARING = Lock()
-"""Held while walkers are built or plants used: threads of a process share robots and compiled code."""
+_PREPARING = RLock()
+"""Held while walkers are built or plants used: threads of a process share robots and compiled code. A walk with
+a table is judged without it, by compiled loops beside which other threads run."""
 
 
 def rows_of(
@@ -120,10 +122,8 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
         with _PREPARING:
             runs = _each(prepared, some)
             made = walks_of([x if isinstance(x, Ready) else partial(_walked, x) for x in runs])
-        walks = made()
-        with _PREPARING:
-            pairs = zip(some, walks, strict=True)
-            rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]
+        pairs = zip(some, made(), strict=True)
+        rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]
     return rows
 
 
@@ -160,7 +160,13 @@ def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
         return {"status": RAISED, "detail": f"{type(error).__name__}: {error}", "impacts": 0}
 
 
-def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
+def _measured(t: Trial, walked: BatchWalk, aside: bool) -> WalkRow:
+    """The row of a walk, for which a plant is used where it has no table or is walked again; see `_counts`."""
+    with _PREPARING if walked.table is None or aside else nullcontext():
+        return _counts(t, walked, aside)
+
+
+def _counts(t: Trial, walked: BatchWalk, aside: bool) -> WalkRow:
     """The row of a walk that has been carried out: how it ended, how fast it was, and what is counted in it.
 
     aside: whether to walk again for the column `rounding`, on the rigid plant. The cost of transport, work [J]
@@ -195,7 +201,8 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
         k, after = limits(s).of(plant.description), None
         if walked.status is Status.COMPLETED:
             # q and q', the first 2 n numbers of x+
-            after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
+            with _PREPARING:
+                after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
         judged = supports(walker, n, k, walked.impacts, after)
         tracked, h = n, t.case.curve
         # FALLS: ends of a walk in which the robot leaves the gait. Then errors count only as long as the phase
