@@ -82,12 +82,22 @@ def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
     assert gait.provenance["curves"].startswith("bspline, degree 6")
 
 
-def test_the_observer_is_that_of_the_controller():
-    """`observer` reports on the observer of the controller that is named (LESO, a linear one with m = 1); NPD
-    has none."""
-    assert "m = 1 at 500 rad/s" in command("observer", "--set", "controller.name=LESO")
-    with pytest.raises(InputError, match="the observer of 'NPD' is None, expected a GPIObserver"):
-        command("observer", "--set", "controller.name=NPD")
+def test_the_observer_is_that_of_the_controller(tmp_path):
+    """`observer` reports on the observer of the controller that is named (LESO, a linear one with m = 1), and
+    has the gang of six for it and for NPD, which has none. In continuous time the first has no loop, which a
+    sentence says; the second is refused."""
+    said = command("observer", "--set", "controller.name=LESO")
+    assert "m = 1 at 500 rad/s" in said
+    assert "Gang of six" in said
+    npd = ["observer", "--set", "controller.name=NPD"]
+    said = command(*npd, "-o", str(tmp_path / "six.svg"))
+    assert "m = 1" not in said
+    assert all(name in said for name in ("|S|", "|P S|", "|u/r|", "disk margin", "ripple"))
+    assert (tmp_path / "six.svg").exists()
+    always = ["--set", "hardware=ideal", "--set", "hardware.period=none"]
+    assert "no loop of the walker: the sampled loop" in command("observer", *always)
+    with pytest.raises(InputError, match="the sampled loop of a walker was asked for"):
+        command(*npd, *always)
     assert "The controller samples with this period [s]." in " ".join(
         command("observer", "-h").split()
     )

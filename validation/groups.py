@@ -4,7 +4,8 @@ Each maker takes seconds to minutes and is independent of the others, so that te
 each group asks is on the page docs/verification.md.
 
 Groups: passive walkers, the three-link walker, the example of 2003, the paper, laws of work and of multipliers
-on stored gaits, all robots, gait design, the force on the hip, and RABBIT in other coordinates ("senses").
+on stored gaits, all robots, gait design, the force on the hip, RABBIT in other coordinates ("senses"), and the
+law of one joint by other tools.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from functools import partial
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.paper.scenarios import CONTROLLERS
-from validation import frost_urdf, gaits, passive, rabbit, three_link
+from validation import frost_urdf, gaits, other_tools, passive, rabbit, three_link
 from validation.row import PRESETS, Row
 
 DESIGNED = ("identified", "tac2003")
@@ -59,6 +60,7 @@ def groups() -> tuple[Group, ...]:
             *(partial(rabbit.hip_rows, c) for c in CONTROLLERS),
         ),
         "senses": (frost_urdf.sense_rows,),
+        "other tools": (other_tools.pyadrc_rows, other_tools.control_rows),
     }
     return tuple(Group(name, parts) for name, parts in makers.items())
 

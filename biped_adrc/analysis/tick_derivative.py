@@ -32,11 +32,12 @@ Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
 """(t [s], x (nx,), mode) -> x after the tick, and J (nx, nx)."""
 
 
-def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
+def tick_derivative(walker: Walker, layout: Layout, exact: bool = False) -> Ticked:
     """Make the function (t, x, mode) -> x+, J of a walker in sampled time: its tick with the derivative.
 
-    layout: of the walker's state x (nx,), as `Walker.layout_of` gives it. Raises InputError for a walker in
-    continuous time; the returned function raises NotFiniteError where x+ or J is not finite.
+    layout: of the walker's state x (nx,), as `Walker.layout_of` gives it. exact: refuse a controller that does
+    not compile. Raises InputError for that, and for a walker in continuous time; the returned function raises
+    NotFiniteError where x+ or J is not finite.
     """
     if walker.held is None:
         raise InputError(
@@ -47,7 +48,13 @@ def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
     try:
         program, nx = Program(layout, numbers_of(walker)), layout.size
         function, K = _function(program), program.K
-    except (NotCompiled, ModelError):
+    except (NotCompiled, ModelError) as error:
+        if exact:
+            name = type(walker.controller).__name__
+            raise InputError(
+                f"the loop of {name} was asked for, which runs in Python, as it branches on numbers or calls a "
+                "solver; expected a law that compiles, whose derivative is exact"
+            ) from error
         return partial(_differenced, walker)
     # arrays that are written anew for each call; `columns` is J transposed, since CasADi stores by columns
     inputs = K, np.zeros(function.size1_in(1))

@@ -1,10 +1,10 @@
 """`biped-adrc observer`, `export` and `replay`: commands on a controller that simulate no walk.
 
-`observer` prints what an observer asks of encoders, clock and motors, from the linear loop of one joint
-(`analysis.observer.report`). `export` writes the controller of a scenario as C (`extras.export.export`); where
-there is a C compiler, the files are compiled once as a trial, and its warnings are printed. `replay` runs the
-controller of a scenario on a robot's log: measurements and torques are those of the log, so the controller does
-not move the robot (`extras.logs.replay`).
+`observer` prints the gang of six of a walker's loop (`analysis.loops.gang`), and what a GPI observer asks of
+encoders, clock and motors, from the linear loop of one joint (`analysis.observer.report`). `export` writes the
+controller of a scenario as C (`extras.export.export`); where there is a C compiler, the files are compiled once
+as a trial, and its warnings are printed. `replay` runs the controller of a scenario on a robot's log:
+measurements and torques are those of the log, so the controller does not move the robot (`extras.logs.replay`).
 
 `target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
 FIGURES are the suffixes that figures may have, WALKS the short options on what walks.
@@ -18,6 +18,7 @@ from typing import Any
 import biped_adrc as ba
 from biped_adrc.cli.app import FIGURES, app, console, inputs, target
 from biped_adrc.cli.options import WALKS, assignments, options, scenario_from
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import check_folder, write_text
 from biped_adrc.core.types import PlainRecord
 
@@ -31,14 +32,15 @@ from biped_adrc.core.types import PlainRecord
 def observer_command(
     values: PlainRecord, sets: list[str] | None = None, out: Path | None = None
 ) -> None:
-    """Say what an observer asks of encoders, clock and motors, and which observer a robot allows.
+    """Say what a controller's loop does at a robot's clock and encoders, and which observer these allow.
 
     Encoders and clock are RABBIT's if not said otherwise.
     """
+    from biped_adrc.analysis.loops.gang import HEADER
     from biped_adrc.analysis.observer.report import observer_report
-    from biped_adrc.core.checks import check_part
     from biped_adrc.scenario.build import RobotAndGait
     from biped_adrc.scenario.controllers import controller
+    from biped_adrc.scenario.cycle import gang_of
 
     out = target(out, FIGURES)
     # RABBIT's hardware, unless --set names the hardware as a whole or its profile; options come on top
@@ -47,28 +49,38 @@ def observer_command(
     s = scenario_from(values, sets)
     # the period is None in continuous time, counts for exact encoders; a report needs numbers: 1 ms, 8192
     h, scene = s.hardware, RobotAndGait.of(s)
-    # a controller without a GPI observer is refused; scene.walked is the gait
-    law: Any = controller(s, scene.walked, scene.biped)
+    law: Any = controller(s, scene.walked, scene.biped)  # scene.walked is the gait
     observer: Any = getattr(law, "observer", None)
-    check_part(observer, f"the observer of '{s.controller.name}'", ba.GPIObserver)
-    report = observer_report(
-        observer,
-        law.gains,
-        robot=scene.biped,
-        gait=scene.walked,
-        period=h.period or 1e-3,
-        counts=h.encoders.counts or 8192.0,
-        delay=h.delay,
-        known=h.delay_known,
-    )
-    console.say(report.verdict)
-    for section in report.sections:
-        console.table(section.header, section.rows, title=section.title)
+    gpi = isinstance(observer, ba.GPIObserver)
+    if gpi:
+        report = observer_report(
+            observer,
+            law.gains,
+            robot=scene.biped,
+            gait=scene.walked,
+            period=h.period or 1e-3,
+            counts=h.encoders.counts or 8192.0,
+            delay=h.delay,
+            known=h.delay_known,
+        )
+        console.say(report.verdict)
+        for section in report.sections:
+            console.table(section.header, section.rows, title=section.title)
+    try:
+        spec, gang = gang_of(s, scene)
+    except InputError as error:
+        if out is not None or not gpi:
+            raise
+        console.say(f"no loop of the walker: {error}")
+        return
+    title = f"loop of '{s.controller.name}' on {scene.biped.description.name}"
+    console.say(f"{title}: {spec}")
+    console.table(HEADER, gang.rows(spec), title="Gang of six, of the walker's loop on the gait")
     if out is not None:
-        from biped_adrc.view.plots.figures import observer_figure
+        from biped_adrc.view.plots.figures import gang_figure
         from biped_adrc.view.style import write_figure
 
-        write_figure(out, observer_figure(report))
+        write_figure(out, gang_figure(gang, title))
         console.written(out)
 
 

@@ -87,10 +87,14 @@ class SuperTwistingController(Controller):
         sigma, _ = self.sliding(self.reference(m.t, m.q, m.v), m)
         return -self.k_2 * sigma / (np.abs(sigma) + self.layer)
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        """z (p,) [rad/s^2] one period later, by one step of Euler's method."""
+    def correct(self, s: Array, m: Measurement) -> Array:
+        """z (p,) [rad/s^2] over the period before this tick, by its sigma: so z does not lose a sample."""
         assert self.period is not None
-        return s + self.period * self.flow(s, m, u)
+        return s + self.period * self.flow(s, m, np.zeros_like(s))
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        """z itself, which `correct` moves."""
+        return s
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         """z (p,) [rad/s^2] after impact, relabelled, as an error of the model belongs to a leg: the legs

@@ -35,16 +35,29 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.checks import check_part, numbers
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.linear import solve, solve_positive
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.reduction import BodyTerms, Reduction
-from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
+from biped_adrc.observers.base import Estimate, Observer, ResetPolicy, equal_poles
 
 _HIGHEST = 1e15
 """Largest gain, K_p in 1/s^2 or K_d in 1/s; above it products of gains and poles overflow."""
+
+
+def per_joint(values: object, what: str) -> Array | float:
+    """A positive number as a float, or one for each joint as an array (p,).
+
+    what: how the message begins. Raises InputError for numbers that are not positive, or too large.
+    """
+    found = numbers(values, what)
+    if found.ndim > 1 or not np.all((found > 0.0) & (found <= _HIGHEST)):
+        raise InputError(
+            f"{what} is {found}, expected positive numbers, one per joint, at most {_HIGHEST:g}"
+        )
+    return float(found) if found.ndim == 0 else read_only(found)
 
 
 @dataclass(frozen=True)
@@ -67,12 +80,7 @@ class Gains(Shown):
 
     def __post_init__(self) -> None:
         for name in ("K_p", "K_d"):
-            value = numbers(getattr(self, name), f"gain {name}")
-            if value.ndim > 1 or not np.all((value > 0.0) & (value <= _HIGHEST)):
-                raise InputError(
-                    f"gain {name} is {value}, expected positive numbers, one per joint, at most {_HIGHEST:g}"
-                )
-            object.__setattr__(self, name, float(value) if value.ndim == 0 else read_only(value))
+            object.__setattr__(self, name, per_joint(getattr(self, name), f"gain {name}"))
 
     def check(self, p: int) -> None:
         """Raise InputError for gains per joint whose number is not p."""
@@ -212,6 +220,29 @@ class ObservingController(Controller):
     observer: Observer
     gains: Gains
     reset: ResetPolicy
+
+    @classmethod
+    def from_bandwidth(
+        cls, reference: Reference, omega_c: float, omega_o: float, m: int = 1, **others: Any
+    ) -> Self:
+        """The law with K_p = omega_c^2, K_d = 2 omega_c, and an observer of m extended states with all poles at
+        -omega_o, m + 2 of them, m + 1 of a momentum observer (Gao, American Control Conference 2003).
+
+        omega_c, omega_o [rad/s]: bandwidths of loop and observer. others: further arguments of the constructor.
+        Raises InputError for a bandwidth or an order out of range.
+
+        >>> ba.ADRCController.from_bandwidth(gait.constraint, omega_c=50.0, omega_o=300.0, m=2).gains.K_p
+        2500.0
+        """
+        check_positive(omega_c, f"omega_c is {omega_c} rad/s")
+        check_whole(m, f"observer order m is {m!r}")
+        make: Any = cls
+        # an observer of the kind of the default one, with `lead` integrators before the disturbance
+        usual = make(reference, **others).observer
+        observer = type(usual).from_poles(equal_poles(omega_o, usual.lead + m))
+        gains = Gains(omega_c**2, 2.0 * omega_c)
+        law: Self = make(reference, observer=observer, gains=gains, **others)
+        return law
 
     @abstractmethod
     def measured_output(self, m: Measurement) -> Estimate:

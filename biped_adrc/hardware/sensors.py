@@ -1,12 +1,14 @@
 """Encoders and an inertial sensor, in sampled time: the measured (q, q').
 
-    y_k = q(t_k) + noise,   q^_k = resolution * round(y_k / resolution)
+    y_k = q(t_k) + noise,   c_k = resolution * round(y_k / resolution)
+    q^_k = q^_(k-1) + (1 - exp(-T / tau_q)) (c_k - q^_(k-1))
     v^_k = v^_(k-1) + (1 - exp(-T / tau)) ((q^_k - q^_(k-1)) / T - v^_(k-1))
 
-at the tick (sample instant) t_k, with the sampling period T and the time constant tau of a low-pass; or, for
+at the tick (sample instant) t_k, with the sampling period T and the time constants tau_q of a low-pass on the
+angles of joints with motors and tau of one on rates, 0 for none; or, for
 coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump, and a difference
 across it is no rate: v^ is mapped by the nominal model's impact, (7) of the paper, and the first tick after it
-keeps that value.
+keeps that value. The low-pass of the angles begins anew there.
 
 The noise is a pure function of its state: MRG32k3a, in doubles that hold whole numbers exactly.
 
@@ -61,8 +63,9 @@ class Sensors(Shown, Sensor):
     unactuated pitch; None: as the joints'. noise [rad], pitch_noise [rad], rate_noise [rad/s]: standard
     deviations of joint angles, the pitch and measured rates, drawn anew at every tick. velocity: "differences"
     of the angles, "measured", or "gyro": differences, but for the pitch's own rate. filter_time [s]: time
-    constant of the differences' low-pass, 0 for none. seed: of the noise, a whole number from 0. Raises
-    InputError for numbers that are negative or not finite.
+    constant of the differences' low-pass, angle_filter [s]: of the low-pass on the angles of joints with
+    motors, 0 for none. seed: of the noise, a whole number from 0. Raises InputError for numbers that are
+    negative or not finite.
 
     >>> sensors = ba.Sensors(counts=10000, noise=1e-5, seed=1)
     >>> timing = ba.SampledTime(1e-3)
@@ -79,6 +82,7 @@ class Sensors(Shown, Sensor):
     velocity: Annotated[str, one_of(VELOCITIES)] = "differences"
     filter_time: NonNegativeFloat = 0.0
     seed: NonNegativeInt = 0
+    angle_filter: NonNegativeFloat = 0.0
 
     @property
     def noisy(self) -> bool:
@@ -120,7 +124,10 @@ class Sensors(Shown, Sensor):
         joints = np.arange(n) < p
         count = 0.0 if self.counts is None else 2.0 * math.pi / self.counts
         pitch = count if self.pitch_resolution is None else self.pitch_resolution
-        share = 1.0 if self.filter_time == 0.0 else -math.expm1(-period / self.filter_time)
+        share, of_angle = (
+            1.0 if time == 0.0 else -math.expm1(-period / time)
+            for time in (self.filter_time, self.angle_filter)
+        )
         differs = joints if self.velocity == "gyro" else np.full(n, self.velocity == "differences")
         resolution = np.where(joints, count, pitch)
         # in the order of the fields of SampledSensors
@@ -130,6 +137,7 @@ class Sensors(Shown, Sensor):
             np.where(joints, self.noise, self.pitch_noise),
             float(self.rate_noise),
             share,
+            np.where(joints, of_angle, 1.0) if self.angle_filter else np.zeros(0),
             float(period),
             differs.astype(int),
             (resolution > 0.0).astype(int),
@@ -177,6 +185,8 @@ class SampledSensors(Sensor):
     """Standard deviation of the noise of measured rates [rad/s]."""
     share: float
     """1 - exp(-T / tau) [1], the part of a new difference in v^; 1 without low-pass."""
+    angle_share: Array
+    """1 - exp(-T / tau_q) (n,) [1], the part of a new angle in q^; (0,) without low-pass."""
     period: float
     """T [s]."""
     differences: Indices
@@ -206,6 +216,8 @@ class SampledSensors(Sensor):
             r, g = normals(r, 2 * n)
             y, dy = q + self.noise * g[:n], v + self.rate_noise * g[n:]
         angle = self.rounded(y)
+        if len(self.angle_share) > 0:
+            angle = before + self.angle_share * (angle - before)
         difference = rate + self.share * ((angle - before) / self.period - rate)
         # after an impact the difference would reach across it, so the rate is kept for one tick
         difference = np.where(fresh > 0.5, rate, difference)

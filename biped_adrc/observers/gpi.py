@@ -175,7 +175,7 @@ class GPIObserver(InjectedChain):
 
 
 @cache
-def _transition(k: int) -> Array:
+def transition(k: int) -> Array:
     """Transition matrix (k, k) of k integrators in a chain over one unit of time."""
     rows = [[1.0 / factorial(j - i) if j >= i else 0.0 for j in range(k)] for i in range(k)]
     return read_only(np.array(rows))
@@ -198,7 +198,7 @@ class SampledChain(ChainObserver):
     def Phi(self) -> Array:
         """Transition matrix (k, k) of the scaled states over one period, dimensionless."""
         # no derived number: k alone decides it, and in machine code its zeros and ones cost nothing
-        return _transition(self.order)
+        return transition(self.order)
 
     @derived
     def Gamma(self) -> Array:

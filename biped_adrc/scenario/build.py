@@ -267,7 +267,8 @@ def sensors(s: Scenario) -> Sensor | None:
     if e.record().keys() - {"filter_time"}:
         # None: the angle of the pitch has the resolution of the joints
         noise = (e.noise, e.pitch_noise, e.rate_noise)
-        encoders = Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
+        rates, noisy = (e.velocity, e.filter_time), drawn(s, "sensors")
+        encoders = Sensors(e.counts, None, *noise, *rates, noisy, e.angle_filter)
     if more.name is None:
         return encoders
     # named_part constructs the class of this name with those of seed and `own` that it takes

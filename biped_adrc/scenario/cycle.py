@@ -35,6 +35,7 @@ from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
 if TYPE_CHECKING:
+    from biped_adrc.analysis.loops.gang import Gang
     from biped_adrc.analysis.loops.specification import Specification
 
 _DIFFERENCE = 1e-4
@@ -117,6 +118,17 @@ def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specific
         raise InputError(f"a specification on plant '{s.ground.plant}', expected '{RIGID}'")
     scene = RobotAndGait.of(s) if scene is None else scene
     return specification(build(s, scene), _frozen(scene, s.errors, s.run.seed))
+
+
+def gang_of(s: Scenario, scene: RobotAndGait) -> tuple[Specification, Gang]:
+    """The specification of the walker of a scenario, and the gang of six of its loop on the plant itself.
+
+    Raises InputError as `specification_of`, and for a controller whose loop is not linear.
+    """
+    from biped_adrc.analysis.loops.gang import gang_of_six
+
+    spec = specification_of(s, scene)
+    return spec, gang_of_six(build(s, scene), _frozen(scene, s.errors, s.run.seed), spec)
 
 
 @lru_cache(maxsize=16)

@@ -21,6 +21,7 @@ the states were stored.
 """
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import nested
 from biped_adrc.control.footstep import FASTEST, SLOWEST, Footstep
 from biped_adrc.control.outer_loop import own_reference
+from biped_adrc.core.timing import SampledTime
 from biped_adrc.disturbances.base import Disturbance, summands
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait
@@ -41,6 +43,8 @@ BURIED = 5e-3
 deep."""
 LONGER = 1.1
 """Largest integration step over the observer's shortest time constant [1]; multiple poles have round-off."""
+_FILTERS = ("filter_time", "angle_filter")
+"""Fields of an observer and of encoders with the time constant of the low-pass on the angle."""
 SAME_CURVE = 1e-6
 """Curves that differ by no more than this [rad] count as the same, stored or fitted twice."""
 
@@ -88,9 +92,32 @@ def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
         name, kept = type(law).__name__, law._writes("initial_state") and not law._writes("jump")
         if kept and trajectory.events(FOOT_STRIKE):
             yield f"{name} has a state and no jump(s, after, swap) to exchange the legs in it at an impact"
+        yield from _of_observer(walker, name, getattr(law, "observer", None))
         # rounded to mm/s: the speed of a gait, which may be the target, has round-off
         if isinstance(law, Footstep) and not SLOWEST <= round(law.speed, 3) <= FASTEST:
             yield f"{name} aims at {SLOWEST:g} to {FASTEST:g} m/s, and was asked for {law.speed:g} m/s"
+
+
+def _of_observer(walker: Walker, law: str, observer: Any) -> Iterator[str]:
+    """Yield a sentence for an observer, None for none, that does not know the low-pass on the angle in the
+    encoders, and for one whose slowest pole is beyond the sampling; law: name of its controller.
+    """
+    # time constants [ms] of the low-pass that the observer knows, and of the one that there is
+    knows, has = (
+        1e3 * getattr(x, name, 0.0)
+        for x, name in zip((observer, walker.sensors), _FILTERS, strict=True)
+    )
+    if observer is not None and knows != has:
+        yield (
+            f"the observer of {law} knows an angle filter of {knows:g} ms, the encoders have one of {has:g} ms;"
+            " the observer 'behind filter' knows it"
+        )
+    slowest = min(np.abs(getattr(observer, "poles", ())), default=0.0)
+    if isinstance(walker.timing, SampledTime) and slowest * walker.timing.period > np.pi:
+        yield (
+            f"the observer of {law} has its slowest pole at {slowest:.4g} rad/s, beyond the sampling's pi / T ="
+            f" {np.pi / walker.timing.period:.4g} rad/s: it follows each sample, noise included"
+        )
 
 
 def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:

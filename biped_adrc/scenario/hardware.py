@@ -37,6 +37,8 @@ class EncoderRecord(Record):
     """Rates are exact, or differences of angles, or so but for the pitch's, which a gyro measures."""
     filter_time: float = field(0.0, "s", ge=0, le=1.0)
     """The low-pass of the differences has this time constant."""
+    angle_filter: float = field(0.0, "s", ge=0, le=1.0)
+    """A low-pass with this time constant acts on the joints' angles."""
 
 
 class SensorRecord(OpenRecord):

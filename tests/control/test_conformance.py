@@ -54,6 +54,7 @@ ROWS = {
             make(h, ba.GPIObserver.from_bandwidth(300.0, 0), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)),
         ],
         "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
+        "ADRC b0": lambda make, h: [make(h), make.from_bandwidth(h, 20.0, 150.0, 2, b_0=0.7)],
         "LESO": lambda make, h: [make(h, ba.GPIObserver.from_bandwidth(500.0))],
         "ADRC assisted": lambda make, h: [make(h)],
         "DOB": lambda make, h: [
@@ -90,7 +91,24 @@ ROWS = {
         "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
         "high gain": lambda make: [make.from_epsilon(0.002), make.from_epsilon(0.01, m=2)],
         "Kalman": lambda make: [make.from_noise(100.0, 1e-5), make.from_noise(1e3, 1e-4, m=2)],
+        "half gain": lambda make: [make.from_bandwidth(150.0), make.from_bandwidth(300.0, 0)],
+        "cascade": lambda make: [
+            make.from_bandwidth(60.0),
+            make.from_bandwidth(40.0, 2, levels=3, ratio=2.0),
+        ],
+        "internal model": lambda make: [
+            make.from_bandwidth(150.0, 8.0),
+            make.from_bandwidth(90.0, 20.0, 0),
+        ],
+        "bounded": lambda make: [
+            make.from_bandwidth(200.0, 150.0),
+            make(ba.GPIObserver.from_bandwidth(90.0, 2), 9.0),
+        ],
         "momentum": lambda make: [make.from_bandwidth(9.0, 3), make.from_poles(THREE)],
+        "behind filter": lambda make: [
+            make.from_bandwidth(200.0, 3e-3),
+            make.from_bandwidth(90.0, 5e-3, 0),
+        ],
     },
     "sensor": {
         "pitch sensor": lambda make: [
@@ -158,12 +176,12 @@ PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
 PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
-    ba.Observer: ("observers", {"ChainObserver", "InjectedChain"}),
+    ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "BehindChain"}),
     ba.Disturbance: (
         "disturbances",
         {"Windowed", "WindowedTorque", "Lines", "HeldRows", "AbsentDisturbance"},
     ),
-    ba.Reference: ("gait", set()),
+    ba.Reference: ("gait", {"Shifted"}),
     Outputs: ("gait", set()),
     OneStepMethod: ("hybrid", {"Solver"}),
     Sensor: ("hardware", set()),

@@ -6,7 +6,7 @@ that sum over that of y''. `off_orbit` is a state off the gait's orbit, and x[10
 state; `at_rest(q)` is the reference that stays at q.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -175,13 +175,13 @@ def test_the_error_obeys_the_super_twisting_equations(biped, gait):
     slope = -1.1e4 * sigma / (np.abs(sigma) + delta)
     assert walker.flow(0.0, x, Mode())[10:] == pytest.approx(slope, rel=1e-9)
     tick = law.sampled(2e-3)
-    assert tick.predict(z, m, np.zeros(4)) == pytest.approx(z + 2e-3 * slope, rel=1e-9)
+    assert tick.correct(z, m) == pytest.approx(z + 2e-3 * slope, rel=1e-9)
     assert np.array_equal(tick.jump(z, m, SWAP), z[SWAP])
 
 
 def test_the_error_obeys_the_filtered_pid(biped, gait):
     """y'' = -K_d e_f' - K_p e_f - K_i s, e_f'' = w^2 (y - e_f) - 2 w e_f' with w = 1000 rad/s, K_i = 5e4, s' =
-    e_f. The filter starts at (y, y', 0), and at an impact s changes legs.
+    e_f. The filter starts at (y, y', 0), and at an impact it begins anew, or keeps s, which changes legs.
     """
     e_f, de_f, s = rows = np.arange(1.0, 13.0).reshape(3, 4) * [[1e-3], [1e-2], [1e-4]]
     walker = Walker(biped, NPIDController(gait.constraint))
@@ -191,23 +191,61 @@ def test_the_error_obeys_the_filtered_pid(biped, gait):
     assert ddy == pytest.approx(-K_D * de_f - K_P * e_f - 5e4 * s, rel=1e-8)
     expected = np.concatenate((de_f, 1e6 * (y - e_f) - 2e3 * de_f, e_f))
     assert walker.flow(0.0, x, Mode())[10:] == pytest.approx(expected, rel=1e-9)
-    after = walker.law.jump(FilterState(*rows), m, SWAP)
-    assert flatten(after) == pytest.approx(np.concatenate((y, dy, s[SWAP])), abs=1e-12)
+    for reset, kept in ((ba.ResetPolicy.MEASURED, s[SWAP]), (ba.ResetPolicy.MODEL, 0.0 * s)):
+        after = replace(walker.law, reset=reset).jump(FilterState(*rows), m, SWAP)
+        assert flatten(after) == pytest.approx(np.concatenate((y, dy, kept)), abs=1e-12)
 
 
 def test_a_tick_of_the_filtered_pid_is_its_flow_under_a_held_error(biped, gait):
     """Two ticks of T / 2 are one of T, and a short one is T times the slope: both hold for the exact solution
-    alone.
+    alone. The torque that acts is the one asked for.
     """
     # a filter that oscillates; by default it has a double pole
     law = NPIDController(gait.constraint, damping=0.3)
     m = Walker(biped, law).measure(0.0, *off_orbit(gait, biped), Mode())
-    s, u, T = FilterState(*np.linspace(-1.0, 1.0, 12).reshape(3, 4)), np.zeros(4), 2e-3
+    s, T = FilterState(*np.linspace(-1.0, 1.0, 12).reshape(3, 4)), 2e-3
     whole, half, short = (law.sampled(t) for t in (T, T / 2, 1e-9))
-    twice = half.predict(half.predict(s, m, u), m, u)
-    assert flatten(whole.predict(s, m, u)) == pytest.approx(flatten(twice), rel=1e-12)
-    change = flatten(short.predict(s, m, u)) - flatten(s)
-    assert change == pytest.approx(1e-9 * flatten(law.flow(s, m, u)), rel=1e-5, abs=1e-12)
+    first = half.correct(s, m)
+    twice = half.correct(half.predict(first, m, half.output(first, m)), m)
+    assert flatten(whole.correct(s, m)) == pytest.approx(flatten(twice), rel=1e-12)
+    change = flatten(short.correct(s, m)) - flatten(s)
+    slope = flatten(law.flow(s, m, law.output(s, m)))
+    assert change == pytest.approx(1e-9 * slope, rel=1e-5, abs=1e-12)
+
+
+@pytest.mark.parametrize("timing", [None, ba.SampledTime(1e-3)])
+@pytest.mark.parametrize("reset", ba.ResetPolicy)
+def test_a_pid_like_adrc_is_one_loop_with_it(biped, gait, timing, reset):
+    """Impacts and ends of a walk under a push and a torque limit are those of ADRC in output form to 1e-9, by
+    each reset policy, in both time bases: start, filter, what acts beyond the limit and impact agree.
+    """
+    h, push = gait.constraint, ba.TorquePulse([20.0, -10.0, 5.0, 0.0, 0.0], 2, 0.1, 0.2)
+    laws = (
+        OutputADRCController(h, GPIObserver.from_bandwidth(500.0, 1), reset=reset),
+        NPIDController.like_adrc(h, bandwidth=500.0, reset=reset),
+    )
+    timing = {"timing": timing} if timing else {}
+    walkers = [Walker(biped, law, push, torque_limit=70.0, **timing) for law in laws]
+    walks = [ba.walk(walker, gait, 3, ba.RK4(2e-4)).trajectory for walker in walkers]
+    ends = [np.append(x.final_state[:10], x.t_end) for x in walks]
+    assert ends[1] == pytest.approx(ends[0], abs=1e-9)
+    assert walks[0].status is walks[1].status
+    free = ba.walk(Walker(biped, laws[0], push, **timing), gait, 3, ba.RK4(2e-4)).trajectory
+    assert abs(free.t_end - walks[0].t_end) > 1e-6  # the limit acted
+
+
+def test_the_integral_of_a_pid_follows_the_torque_that_acts(biped, gait):
+    """Where no torque acts, K_i s approaches what makes v that of no torque with the time constant T_t: after
+    three of them e^-3 of the way is left, with e = e_f = 0.
+    """
+    law = NPIDController(gait.constraint)
+    m = Walker(biped, law).measure(0.0, *gait.start(biped), Mode())
+    s, none, T_t = FilterState(*np.zeros((3, 4))), np.zeros(4), law.tracking_time
+    first, tick = law.missing(s, m, none)[2], law.sampled(1e-4)
+    for _ in range(round(3.0 * T_t / 1e-4)):
+        s = tick.predict(s, m, none)
+    left = law.missing(s, m, none)[2] / first
+    assert left == pytest.approx(np.full(4, np.exp(-3.0)), rel=0.01)
 
 
 def test_a_pid_like_adrc_has_the_transfer_function_of_its_observer():

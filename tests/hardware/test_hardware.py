@@ -78,6 +78,23 @@ def test_the_low_pass_answers_a_step_of_the_rate_with_an_exponential():
     assert np.allclose(rate, 1.0 - np.exp(-np.arange(30) * T / tau), rtol=0.0, atol=1e-12)
 
 
+def test_the_low_pass_of_the_angles_answers_a_step_with_an_exponential():
+    """After a step of 1 rad q^ = 1 - exp(-k T / tau) at the k-th tick, in joints with motors alone; rates are
+    differences of it.
+    """
+    T, tau, n = 1e-3, 4e-3, 3
+    sensors = ba.Sensors(angle_filter=tau).sampled(n, 2, T)
+    w, q = sensors.start(np.zeros(n), np.zeros(n)), np.ones(n)
+    before = w.angle
+    for k in range(1, 6):
+        w = sensors.sense(w, q, np.zeros(n))
+        left = np.array([np.exp(-k * T / tau)] * 2 + [0.0])
+        assert w.angle == pytest.approx(1.0 - left, rel=1e-12)
+        if k > 1:  # the first tick after a start has no difference
+            assert w.rate == pytest.approx((w.angle - before) / T, rel=1e-9)
+        before = w.angle
+
+
 def test_noise_has_its_deviation_and_its_seed():
     """Over 4000 ticks deviations are right within 5 %, and correlations of different sensors within four
     deviations of zero.

@@ -361,6 +361,7 @@ controller.prediction 0 >=0 <=0.1 s; controller.feedforward 0 >=0 <=2 1; hardwar
 >=1e-05 <=0.1 s; hardware.delay 0 >=0 <=1 s; hardware.encoders.counts none >=1 1;
 hardware.encoders.noise 0 >=0 <=1 rad; hardware.encoders.pitch_noise 0 >=0 <=1 rad;
 hardware.encoders.rate_noise 0 >=0 <=100 rad/s; hardware.encoders.filter_time 0 >=0 <=1 s;
+hardware.encoders.angle_filter 0 >=0 <=1 s;
 hardware.torque_limit none >0 N m; hardware.rate_limit none >0 N m/s; hardware.lag 0 >=0 <=1 s;
 pushes.0.force 0 >=0 <=100000 N; pushes.0.direction 0 >=-7 <=7 rad; pushes.0.step 3 >=1 <=100000;
 pushes.0.onset none >=0 <=100 s; pushes.0.duration 0.2 >0 <=100 s; pushes.0.rise 0 >=0 <=10 s;

@@ -29,6 +29,7 @@ WALKS: dict[str, dict[str, Any]] = {
     | {"hardware.delay": 1e-3, "hardware.encoders.filter_time": 2e-3},
     "ADRC output": {"controller": "ADRC output", "controller.observer": SLOW["controller.observer"]}
     | {"hardware.delay": 4e-4, "hardware.delay_known": True},
+    "ADRC b0": {"controller.name": "ADRC b0", "hardware": "rabbit", "gait": "v0.8"},
     "LESO": {"controller.name": "LESO", "controller.observer": {"bandwidth": 160.0}}
     | {"hardware.encoders": {"counts": 8192.0, "velocity": "gyro"}}
     | {"controller.contact": {"name": "hold", "window": 5e-3}},

@@ -15,9 +15,8 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from biped_adrc.analysis.observer.report import observer_report
+from biped_adrc.analysis.loops.gang import UNITS, Gang
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.npd import NPDController
@@ -30,7 +29,6 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf
 from biped_adrc.model.robots.urdf import Visual
-from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.scenario.walk import walk as walk_of
@@ -39,7 +37,7 @@ from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.from_the_side.side_view import bones
 from biped_adrc.view.meshcat import objects
 from biped_adrc.view.plots import figures, over_time, zero_dynamics
-from biped_adrc.view.plots.figures import NAMES, draw, observer_figure
+from biped_adrc.view.plots.figures import NAMES, draw, gang_figure
 from biped_adrc.view.plots.study import map_figure, path_figure
 from biped_adrc.view.style import render
 
@@ -339,19 +337,14 @@ def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
     assert drawn(30.0, 10.0) == (7.0, 20.0)
 
 
-@pytest.mark.parametrize("m", [0, 1])
-def test_an_observer_without_extended_states_has_no_curve_of_an_estimate(
-    biped: Biped, m: int
-) -> None:
-    """m: number of extended states. With m = 0 the second panel, of the disturbance's estimate, has a text in
-    place of a curve; curves have more than 100 points, marks fewer.
+def test_the_gang_of_six_has_a_panel_with_a_curve_for_each() -> None:
+    """Half the sampling frequency is a vertical line in all panels, the level 1 a horizontal one in those of S,
+    T and y/r, which have no unit.
     """
-    observer, gait = GPIObserver.from_bandwidth(300.0, m=m), load_gait("published", biped)
-    report = observer_report(observer, robot=biped, gait=gait)
-    panels = observer_figure(report).axes
-    # Line2D([], []): for a panel without lines
-    curves = [
-        max(len(line.get_xdata()) for line in [*x.get_lines(), Line2D([], [])]) for x in panels
-    ]
-    assert [count > 100 for count in curves] == [True, m > 0, True]
-    assert [x.get_text() for x in panels[1].texts] == ([] if m else ["m = 0 has none"])
+    w = np.geomspace(1.0, 1e3, 200)
+    gang = Gang(w, dict.fromkeys(UNITS, 1.0 + w), 1e-3)
+    panels = gang_figure(gang, "loop").axes
+    assert [len(x.get_lines()) for x in panels] == [3, 3, 2, 2, 3, 2]
+    assert all(len(x.get_lines()[0].get_xdata()) == 200 for x in panels)
+    assert panels[2].get_ylabel() == "|P S| [rad/(N m)]"
+    assert panels[0].get_ylabel() == "|S|"

@@ -148,6 +148,8 @@ def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) ->
 
 TICKS_BEFORE = 2
 """Ticks before the one that is differentiated, after which every sensor has a difference of its angles."""
+SHIFT = 1e-6
+"""By how much a shifted walker differs from its twin [rad, rad/s]."""
 _SAME = 1e-12
 """Largest difference of two columns that count as equal; their largest entry is 1."""
 
@@ -163,6 +165,10 @@ class TickMatrices(NamedTuple):
     """(.., p, k)."""
     E: Array
     """(.., p, 2 n)."""
+
+    def reading(self, columns: slice) -> TickMatrices:
+        """The tick that reads these columns of Y and E alone."""
+        return self._replace(Y=self.Y[..., columns], E=self.E[..., columns])
 
 
 def linear_twin(walker: Walker) -> Walker:
@@ -181,13 +187,17 @@ def linear_twin(walker: Walker) -> Walker:
     return replace(walker, sensors=smooth, torque_limit=None, motors=None, disturbance=None)
 
 
-def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
+def tick_matrices(
+    twin: Walker, points: Sequence[FrozenPoint], shifted: Sequence[tuple[Walker, Walker]] = ()
+) -> TickMatrices:
     """Linearise the tick of a walker at points of the gait; the matrices have a leading axis of points.
 
     twin: the walker without limits, counts and noise, from `linear_twin`. J is the derivative dx+/dx of the
-    state x = (q, q', z); numbers of z without effect are dropped.
+    state x = (q, q', z); numbers of z without effect are dropped. shifted: pairs of walkers that differ from
+    the twin by +SHIFT and -SHIFT in one number; Y and E have one more column per pair, the derivative by it.
 
-    Raises NotFiniteError where a method has no finite derivative there.
+    Raises NotFiniteError where a method has no finite derivative there, InputError for shifted walkers whose
+    law does not compile, since one that branches on numbers is not linear.
     """
     assert isinstance(twin.timing, SampledTime)
     n, T, mode = twin.plant.n, twin.timing.period, Mode()
@@ -197,18 +207,24 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
         # TICKS_BEFORE: after these each sensor has a difference of its angles
         x = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode)
         layout = twin.layout_of(x)
-        ticked = ticked or tick_derivative(twin, layout)
+        ticked = ticked or tick_derivative(twin, layout, exact=len(shifted) > 0)
         # the earlier ticks, at points that the rates v of the orbit lead to the frozen one, only fill the
         # memory of the sensors; J of the last one is kept
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
+            start = x
             x, J = ticked(point.t - before * T, x, mode)
+        # behind the columns of x those of the shifted numbers
+        for above, below in shifted:
+            ends = [each.tick(point.t, start, mode) for each in (above, below)]
+            J = np.column_stack((J, (ends[0] - ends[1]) / (2.0 * SHIFT)))
         # a row of J belongs to one number of x+, so J.T has x+ along its last axis, as a layout expects it.
         # u: the rows of J of the torque that this tick has sent. z: the rows of z, later in the period, when a
         # torque that waits for a fraction of it has begun to act in place of the one before (`_released`). Of
         # the columns the first 2 n are those of (q, q'), the others those of z
         u, z = layout.tree(J.T).tail.line.sent.T, _released(layout, J)[2 * n :]
-        result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
+        own = np.arange(2 * n, layout.size)  # columns of z
+        result.append((z[:, own], np.delete(z, own, axis=1), u[:, own], np.delete(u, own, axis=1)))
     # _acting: drops the numbers of z without effect
     return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
 

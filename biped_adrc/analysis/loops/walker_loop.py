@@ -214,19 +214,23 @@ class WalkerLoops:
         own = own[..., : int(np.max(np.sum(inside, axis=-1)))]
         grid = np.geomspace(self.slow, nyquist, FREQUENCIES)
         grid = grid.reshape(*(1 for _ in own.shape[:-1]), -1)
-        (j, f), p = whole_and_part(self.delay, self.period), self.B.shape[-1]
-        Z, Y, C, E = self.tick
-        Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
-        # of_plant picks (q, q') out of the states of robot and motors
-        G, of_plant = np.concatenate((G_2, G_1), axis=-1), np.eye(Y.shape[-1], Phi.shape[-1])
         result = []
         for angles in (grid * self.period, own * self.period):
-            z = np.exp(1j * angles)[..., np.newaxis, np.newaxis]
-            K, P = response(z, Z, Y, C) + E[..., np.newaxis, :, :], response(z, Phi, G, of_plant)
-            # Gamma_2 acts j periods late, Gamma_1 one period more
-            P = (P[..., :p] + P[..., p:] / z) / z**j
-            result.append(np.linalg.inv(np.eye(p) - K @ P))
+            K, P = self.parts(np.exp(1j * angles)[..., np.newaxis, np.newaxis])
+            result.append(np.linalg.inv(np.eye(P.shape[-1]) - K @ P))
         return np.concatenate(result, axis=-3)
+
+    def parts(self, z: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+        """K (.., F, p, 2 n) of the controller, u = K (q, q'), and P (.., F, 2 n, p) of the robot with delay and
+        motors, (q, q') = P u, at z = exp(i w T) (.., F, 1, 1).
+        """
+        (j, f), p = whole_and_part(self.delay, self.period), self.B.shape[-1]
+        Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
+        # of_plant picks (q, q') out of the states of robot and motors
+        G, of_plant = np.concatenate((G_2, G_1), axis=-1), np.eye(self.A.shape[-1], Phi.shape[-1])
+        P = response(z, Phi, G, of_plant)
+        # Gamma_2 acts j periods late, Gamma_1 one period more
+        return tick_response(z, self.tick), (P[..., :p] + P[..., p:] / z) / z**j
 
     def covariance_of_torque(self, errors: Array) -> Array:
         """Covariance (p, p) [N^2 m^2] of the torques of one loop under independent errors of
@@ -247,6 +251,14 @@ class WalkerLoops:
         shaken, direct = np.real(B)[:, :m] * errors, D[:, :m] * errors
         P = covariance(np.real(M), shaken @ shaken.T)
         return np.asarray(C @ P @ C.T + direct @ direct.T)
+
+
+def tick_response(z: ComplexArray, tick: TickMatrices) -> ComplexArray:
+    """Frequency response C (z - Z)^-1 Y + E (.., F, p, m) of the tick at z = exp(i w T) (.., F, 1, 1), from the
+    m numbers that it reads to the torques.
+    """
+    Z, Y, C, E = tick
+    return response(z, Z, Y, C) + E[..., np.newaxis, :, :]
 
 
 def response(z: ComplexArray, M: Array, B: Array, C: Array) -> ComplexArray:

@@ -16,7 +16,7 @@ largest bandwidth of each order that the robot allows. Each number is computed a
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -34,10 +34,9 @@ from biped_adrc.analysis.observer.choice import (
     without_observer,
 )
 from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
-from biped_adrc.analysis.observer.loop import GRID, largest_delay, largest_period
+from biped_adrc.analysis.observer.loop import largest_delay, largest_period
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.core.shown import columns
-from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
@@ -103,18 +102,6 @@ class ObserverReport(OnHardware):
         """
         return self.rejection / without_observer(self.gains)
 
-    @property
-    def responses(self) -> dict[str, Callable[[Array], ComplexArray]]:
-        """Frequency responses by name: e / xi [s^2], xi^ / xi [1] and u / n [N m/rad], functions
-        of frequencies (K,) [rad/s].
-        """
-        # the loop's response to n is an acceleration; `inertia` makes it a torque
-        return {
-            "e / xi": self.loop.tracking_error,
-            "xi^ / xi": self.loop.estimate,
-            "u / n": lambda w: self.loop.noise(w) * self.hardware.inertia,
-        }
-
     # -- words ---------------------------------------------------------------------------------------
     @property
     def name(self) -> str:
@@ -175,8 +162,8 @@ class ObserverReport(OnHardware):
     # -- tables --------------------------------------------------------------------------------------
     @property
     def sections(self) -> list[_Section]:
-        """All tables: gains, stability, responses, impact and allowed bandwidths."""
-        tables = (self._gains, self._stability, self._responses, self._impact, self._allowed)
+        """All tables: gains, stability, estimate, impact and allowed bandwidths."""
+        tables = (self._gains, self._stability, self._estimate, self._impact, self._allowed)
         return [table() for table in tables]
 
     def text(self) -> str:
@@ -211,23 +198,15 @@ class ObserverReport(OnHardware):
         title = "Stability of the linear loop, kappa as in the model"
         return _Section(title, ("", "unknown delay", "known delay"), tuple(rows))
 
-    def _responses(self) -> _Section:
-        """Table of each response: level at low frequency, peak, and frequency at which it is 3 dB lower.
-
-        xi^ / xi is compared with its level at low frequency, the others with their peak.
-        """
-        grid, rows = self.loop.frequencies, []
-        for name, response in self.responses.items():
-            level = np.abs(response(grid))
-            top = int(np.argmax(level))
-            peak, edge = "0: no xi^", ""  # for m = 0 the response xi^ / xi is zero
-            if level[top] > 0.0:
-                peak = f"{level[top]:.4g} at {grid[top]:.4g} rad/s"
-                # _falls: the frequency at which it is 3 dB lower than at the second argument
-                edge = f"{_falls(response, grid[0 if name == 'xi^ / xi' else top], grid[-1]):.4g} rad/s"
-            rows.append((f"|{name}|", f"{level[0]:.3g}", peak, edge))
-        title = "Transfer functions: disturbance to error [s^2] and to its estimate, angle to torque [N m/rad]"
-        return _Section(title, ("", "at low frequency", "peak", "-3 dB"), tuple(rows))
+    def _estimate(self) -> _Section:
+        """Table of xi^ / xi: peak, and the frequency at which it is 3 dB below its level at low frequency."""
+        grid = self.loop.frequencies
+        level = np.abs(self.loop.estimate(grid))
+        top, low = int(np.argmax(level)), np.flatnonzero(level < level[0] / np.sqrt(2.0))
+        # for m = 0 there is no xi^, and the response is zero
+        some = f"{level[top]:.4g} at {grid[top]:.4g} rad/s", f"{grid[[*low, -1][0]]:.4g} rad/s"
+        row = ("|xi^ / xi|", *(some if level[top] > 0.0 else ("0: no xi^", "")))
+        return _Section("Estimate of the disturbance", ("", "peak", "-3 dB"), (row,))
 
     def _impact(self) -> _Section:
         """Table of the peaks of the estimation error after the gait's impact, one row per reset policy."""
@@ -260,17 +239,6 @@ class ObserverReport(OnHardware):
             f"the limit, stable for kappa off by {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g}"
         )
         return _Section(title, ALLOWED, tuple(rows))
-
-
-def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
-    """The first frequency [rad/s] from `low` to `high` at which |response| is 3 dB below its value at `low`;
-    `high` if there is none.
-    """
-    # GRID: number of frequencies
-    grid = np.geomspace(low, high, GRID)
-    level = np.abs(response(grid))
-    below = np.flatnonzero(level < level[0] / np.sqrt(2.0))
-    return float(grid[below[0]]) if len(below) else high
 
 
 def microseconds(seconds: float) -> str:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,15 +23,13 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.gridspec import SubplotSpec
 from numpy.typing import ArrayLike
 
+from biped_adrc.analysis.loops.gang import UNITS, Gang
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
 from biped_adrc.view.placement import Drawable
 from biped_adrc.view.plots import over_time, stability
 from biped_adrc.view.plots.over_time import Window
-from biped_adrc.view.style import DASHES, GREY, PALETTE, label, literal, new_figure
-
-if TYPE_CHECKING:
-    from biped_adrc.analysis.observer.report import ObserverReport
+from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure
 
 BEFORE, AFTER = 0.3, 0.6
 """Time shown before and after a push [s]."""
@@ -282,41 +280,30 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
         return figure
 
 
-FREQUENCIES, LEAST = 400, 1e-12
-"""Number of frequencies of a response, and the least value drawn, as a share of the panel's largest."""
+SIX = {
+    "S": "sensitivity",
+    "T": "complementary sensitivity",
+    "P S": "load torque to error",
+    "C S": "angle's error to torque",
+    "y/r": "reference to joints",
+    "u/r": "reference to torque",
+}
+"""Titles of the panels of `gang_figure`."""
 
 
-def observer_figure(report: ObserverReport) -> Figure:
-    """Draw |e / xi| [s^2], |xi^ / xi| [1] and |u / n| [N m/rad] of the linear loop of one
-    joint over frequency [rad/s].
+def gang_figure(gang: Gang, title: str = "") -> Figure:
+    """Draw the gang of six of a loop over frequency [rad/s], each the largest singular value over the joints.
 
-    xi is the disturbance, e the tracking error, xi^ the estimate, n an error of the measured angle: a faster
-    observer lowers the first curve and raises the last. Dotted: half the sampling frequency, above which a
-    sampled loop has aliases. An observer without extended states (m = 0) has no estimate and no curve in the
-    second panel.
+    Dotted: half the sampling frequency; in the panels of S, T and y/r the level 1.
     """
-    frequencies, responses = report.loop.frequencies, report.responses
-    # FREQUENCIES: number of frequencies; LEAST: least value drawn, as a share of the largest
-    grid = np.geomspace(frequencies[0], frequencies[-1], FREQUENCIES)
-    curves = (
-        ("e / xi", "|e / xi| [s$^2$]", "error from a disturbance"),
-        ("xi^ / xi", "|xi^ / xi|", "estimate of the disturbance"),
-        ("u / n", "|u / n| [N m/rad]", "torque from an angle's error"),
-    )
-    with new_figure(9.0, 3.4) as figure:
-        panels = figure.subplots(1, 3)
-        for axes, (response, name, title) in zip(panels, curves, strict=True):
-            label(axes, "frequency [rad/s]", name, title)
-            level = np.abs(responses[response](grid))
-            if not np.any(level > 0.0):
-                axes.set_xscale("log")
-                axes.text(0.5, 0.5, "m = 0 has none", ha="center", transform=axes.transAxes)
-                continue
-            axes.loglog(grid, level, label=report.name, color=PALETTE[0], ls=DASHES[0])
-            axes.set_ylim(bottom=max(axes.get_ylim()[0], LEAST * np.max(level)))
-            # half the sampling frequency, in [rad/s]
-            axes.axvline(np.pi / report.hardware.period, color=GREY, lw=0.8, ls=":")
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center")
+    with new_figure(9.0, 5.0, title) as figure:
+        for axes, (name, what) in zip(figure.subplots(2, 3).flat, SIX.items(), strict=True):
+            unit = UNITS[name]
+            label(axes, "frequency [rad/s]", f"|{name}|" + f" [{unit}]" * bool(unit), what)
+            axes.loglog(gang.frequencies, gang.responses[name], color=PALETTE[0])
+            axes.axvline(np.pi / gang.period, color=GREY, lw=0.8, ls=":")
+            if not unit:
+                axes.axhline(1.0, color=GREY, lw=0.8, ls=":")
         return figure
 
 
