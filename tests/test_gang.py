@@ -14,7 +14,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.loops.frozen_gait import FrozenGait, TickMatrices, linear_twin
-from biped_adrc.analysis.loops.gang import UNITS, Cut, Shifted, cut_at_torques
+from biped_adrc.analysis.loops.gang import GANG_UNITS, Cut, Shifted, cut_at_torques
 from biped_adrc.analysis.loops.specification import specification
 from biped_adrc.analysis.loops.walker_loop import WalkerLoops, robot_step
 from biped_adrc.control.outer_loop import own_reference, tracking
@@ -140,7 +140,7 @@ def test_s_and_t_add_to_one_and_s_is_that_of_the_margins():
 def test_an_outer_loop_has_the_gang_of_the_controller_inside():
     """The PI from step to step changes nothing within a step."""
     alone, inside = (gang(name, hardware="rabbit") for name in ("ADRC", "stride PI"))
-    for name in UNITS:
+    for name in GANG_UNITS:
         np.testing.assert_allclose(inside.responses[name], alone.responses[name], rtol=1e-5)
 
 

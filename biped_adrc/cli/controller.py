@@ -36,7 +36,7 @@ def observer_command(
 
     Encoders and clock are RABBIT's if not said otherwise.
     """
-    from biped_adrc.analysis.loops.gang import HEADER
+    from biped_adrc.analysis.loops.gang import GANG_COLUMNS
     from biped_adrc.analysis.observer.report import observer_report
     from biped_adrc.scenario.build import RobotAndGait
     from biped_adrc.scenario.controllers import controller
@@ -75,7 +75,9 @@ def observer_command(
         return
     title = f"loop of '{s.controller.name}' on {scene.biped.description.name}"
     console.say(f"{title}: {spec}")
-    console.table(HEADER, gang.rows(spec), title="Gang of six, of the walker's loop on the gait")
+    console.table(
+        GANG_COLUMNS, gang.rows(spec), title="Gang of six, of the walker's loop on the gait"
+    )
     if out is not None:
         from biped_adrc.view.plots.figures import gang_figure
         from biped_adrc.view.style import write_figure

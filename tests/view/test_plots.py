@@ -16,7 +16,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from biped_adrc.analysis.loops.gang import UNITS, Gang
+from biped_adrc.analysis.loops.gang import GANG_UNITS, Gang
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.npd import NPDController
@@ -342,7 +342,7 @@ def test_the_gang_of_six_has_a_panel_with_a_curve_for_each() -> None:
     T and y/r, which have no unit.
     """
     w = np.geomspace(1.0, 1e3, 200)
-    gang = Gang(w, dict.fromkeys(UNITS, 1.0 + w), 1e-3)
+    gang = Gang(w, dict.fromkeys(GANG_UNITS, 1.0 + w), 1e-3)
     panels = gang_figure(gang, "loop").axes
     assert [len(x.get_lines()) for x in panels] == [3, 3, 2, 2, 3, 2]
     assert all(len(x.get_lines()[0].get_xdata()) == 200 for x in panels)

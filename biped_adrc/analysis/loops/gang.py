@@ -49,11 +49,11 @@ from biped_adrc.core.types import Array, ComplexArray, read_only
 from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.reference import ReferencePoint
 
-HEADER = "", "peak or value", "at"
+GANG_COLUMNS = "", "peak or value", "at"
 """Of the table."""
-UNITS = {"S": "", "T": "", "P S": "rad/(N m)", "C S": "N m/rad", "y/r": "", "u/r": "N m/rad"}
+GANG_UNITS = {"S": "", "T": "", "P S": "rad/(N m)", "C S": "N m/rad", "y/r": "", "u/r": "N m/rad"}
 """The six, with their units."""
-GRID = 300
+FREQUENCIES = 300
 """Number of frequencies in geometric order, beside those of the loop's modes."""
 
 
@@ -81,13 +81,13 @@ class Gang(Shown):
     frequencies: Array
     """(F,) [rad/s], increasing."""
     responses: dict[str, Array]
-    """By the names of UNITS, each (F,)."""
+    """By the names of GANG_UNITS, each (F,)."""
     period: float
     """Of the clock [s]."""
 
     def rows(self, spec: Specification) -> tuple[tuple[str, str, str], ...]:
         """A table of texts: peaks of the six with their frequencies, bandwidth, and the numbers of `spec`."""
-        peaks = {name: self.peak(name) for name in UNITS}
+        peaks = {name: self.peak(name) for name in GANG_UNITS}
         numbers = (
             ("bandwidth, |S| below 0.71", f"{self.bandwidth:.4g} rad/s"),
             ("delay margin", f"{1e3 * spec.delay_margin:.3g} ms"),
@@ -95,7 +95,10 @@ class Gang(Shown):
             ("ripple", f"{spec.ripple:.3g} N m"),
         )
         return (
-            *((f"|{k}|", f"{x:.3g} {UNITS[k]}", f"{w:.4g} rad/s") for k, (x, w) in peaks.items()),
+            *(
+                (f"|{k}|", f"{x:.3g} {GANG_UNITS[k]}", f"{w:.4g} rad/s")
+                for k, (x, w) in peaks.items()
+            ),
             *((*each, "") for each in numbers),
         )
 
@@ -119,7 +122,7 @@ def gang_of_six(walker: Walker, gait: FrozenGait, spec: Specification) -> Gang:
     cut = cut_at_torques(walker, gait, spec)
     loops, top = cut.loops, np.pi / cut.loops.period
     own = loops.rates.imag
-    grid = np.geomspace(loops.slow, top, GRID)
+    grid = np.geomspace(loops.slow, top, FREQUENCIES)
     w = np.unique(np.concatenate((grid, own[(own > loops.slow) & (own < top)])))
     found = cut.responses(w).items()
     sizes = {k: np.max(np.linalg.norm(x, 2, axis=(-2, -1)), axis=0) for k, x in found}
@@ -158,7 +161,7 @@ class Cut(NamedTuple):
     """(phases, p, n): the output per change of q."""
 
     def responses(self, w: Array) -> dict[str, ComplexArray]:
-        """The six at w (F,) [rad/s], each (phases, F, p, p), by the names of UNITS."""
+        """The six at w (F,) [rad/s], each (phases, F, p, p), by the names of GANG_UNITS."""
         (loops, shift, y), (p, n) = self, self.y.shape[-2:]
         s = 1j * w[:, np.newaxis, np.newaxis]
         z = np.exp(s * loops.period)
@@ -168,4 +171,4 @@ class Cut(NamedTuple):
         by_r, by_n = R[..., :p] + s * R[..., p:], K[..., :p] + s * K[..., n : n + p]
         PS = y[:, np.newaxis] @ P[..., :n, :] @ S
         found = (S, np.eye(p) - S, PS, S @ by_n, PS @ by_r, S @ by_r)
-        return dict(zip(UNITS, found, strict=True))
+        return dict(zip(GANG_UNITS, found, strict=True))

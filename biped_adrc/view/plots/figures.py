@@ -23,7 +23,7 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.gridspec import SubplotSpec
 from numpy.typing import ArrayLike
 
-from biped_adrc.analysis.loops.gang import UNITS, Gang
+from biped_adrc.analysis.loops.gang import GANG_UNITS, Gang
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
 from biped_adrc.view.placement import Drawable
@@ -298,7 +298,7 @@ def gang_figure(gang: Gang, title: str = "") -> Figure:
     """
     with new_figure(9.0, 5.0, title) as figure:
         for axes, (name, what) in zip(figure.subplots(2, 3).flat, SIX.items(), strict=True):
-            unit = UNITS[name]
+            unit = GANG_UNITS[name]
             label(axes, "frequency [rad/s]", f"|{name}|" + f" [{unit}]" * bool(unit), what)
             axes.loglog(gang.frequencies, gang.responses[name], color=PALETTE[0])
             axes.axvline(np.pi / gang.period, color=GREY, lw=0.8, ls=":")
