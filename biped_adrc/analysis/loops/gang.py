@@ -53,7 +53,7 @@ GANG_COLUMNS = "", "peak or value", "at"
 """Of the table."""
 GANG_UNITS = {"S": "", "T": "", "P S": "rad/(N m)", "C S": "N m/rad", "y/r": "", "u/r": "N m/rad"}
 """The six, with their units."""
-FREQUENCIES = 300
+_FINE = 300
 """Number of frequencies in geometric order, beside those of the loop's modes."""
 
 
@@ -122,7 +122,7 @@ def gang_of_six(walker: Walker, gait: FrozenGait, spec: Specification) -> Gang:
     cut = cut_at_torques(walker, gait, spec)
     loops, top = cut.loops, np.pi / cut.loops.period
     own = loops.rates.imag
-    grid = np.geomspace(loops.slow, top, FREQUENCIES)
+    grid = np.geomspace(loops.slow, top, _FINE)
     w = np.unique(np.concatenate((grid, own[(own > loops.slow) & (own < top)])))
     found = cut.responses(w).items()
     sizes = {k: np.max(np.linalg.norm(x, 2, axis=(-2, -1)), axis=0) for k, x in found}
