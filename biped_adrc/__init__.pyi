@@ -8,12 +8,14 @@ from biped_adrc.analysis.zero_report import zero_report as zero_report
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.walker import Walker as Walker
 from biped_adrc.control.adrc import ADRCController as ADRCController
+from biped_adrc.control.b0_adrc import B0ADRCController as B0ADRCController
 from biped_adrc.control.base import Controller as Controller
 from biped_adrc.control.base import Measurement as Measurement
 from biped_adrc.control.base import Passive as Passive
 from biped_adrc.control.finite_time import FiniteTimeController as FiniteTimeController
 from biped_adrc.control.footstep import Footstep as Footstep
 from biped_adrc.control.npd import NPDController as NPDController
+from biped_adrc.control.npid import NPIDController as NPIDController
 from biped_adrc.control.reference_reset import ReferenceReset as ReferenceReset
 from biped_adrc.control.stride import StridePI as StridePI
 from biped_adrc.control.tracking import TABLE_II as TABLE_II

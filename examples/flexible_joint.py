@@ -6,7 +6,7 @@ A motor (q_m) turns a load (q_l) through a spring; a torque d acts on the load. 
 knows kappa = 1/J_m: the spring is a disturbance to it. Its law, stepped tick by tick under d = sin(w t), and
 python-control with the law's transfer function have to find the same amplitude of q_m.
 
-Run: python examples/flexible_joint.py
+Run: pip install control, then python examples/flexible_joint.py
 """
 
 import control

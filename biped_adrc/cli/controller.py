@@ -26,7 +26,8 @@ from biped_adrc.core.types import PlainRecord
 @app.command("observer")
 @options(
     "observer",
-    *("gait", "preset", "robot", "period", "poles", "bandwidth", "order"),
+    *WALKS,
+    *("period", "poles", "bandwidth", "order"),
     period="1.5 ms, RABBIT's",
 )
 def observer_command(
@@ -51,7 +52,8 @@ def observer_command(
     h, scene = s.hardware, RobotAndGait.of(s)
     law: Any = controller(s, scene.walked, scene.biped)  # scene.walked is the gait
     observer: Any = getattr(law, "observer", None)
-    gpi = isinstance(observer, ba.GPIObserver)
+    # the report is of a loop whose kappa is exact, which a law with a constant b_0 has not
+    gpi = isinstance(observer, ba.GPIObserver) and not hasattr(law, "b_0")
     if gpi:
         report = observer_report(
             observer,
@@ -73,6 +75,10 @@ def observer_command(
             raise
         console.say(f"no loop of the walker: {error}")
         return
+    if observer is not None and not gpi:
+        console.say(
+            f"no verdict on the observer of '{s.controller.name}': it is for GPI and an exact kappa"
+        )
     title = f"loop of '{s.controller.name}' on {scene.biped.description.name}"
     console.say(f"{title}: {spec}")
     console.table(

@@ -44,8 +44,13 @@ _SLOW = Gains(900.0, 60.0)
 class B0ADRCController(OutputADRCController):
     """ADRC of y = q_b - q_d with b_0 in place of the model; all defaults are those of RABBIT.
 
-    b_0 [1/(kg m^2)]: one number, or one per joint (p,). reset: MODEL begins anew with f^ = 0 at impact, and
-    MEASURED keeps f^, relabelled. Raises InputError for numbers that are not positive.
+    reference: q_d. observer: of y, y' and f. gains: K_p [1/s^2], K_d [1/s]. b_0 [1/(kg m^2)]: one number, or
+    one per joint (p,). reset: MODEL begins anew with f^ = 0 at impact, and MEASURED keeps f^, relabelled.
+    Raises InputError for numbers that are not positive.
+
+    >>> controller = ba.B0ADRCController(gait.constraint, b_0=0.6)
+    >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
+    1
     """
 
     observer: Observer = field(default_factory=lambda: GPIObserver.from_bandwidth(200.0, 1))

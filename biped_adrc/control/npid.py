@@ -88,6 +88,10 @@ class NPIDController(Controller):
     find them. like: k_p [1/s^2], k_d [1/s] and bandwidth [rad/s] of the ADRC that has the same C, set by
     `like_adrc`. period [s]: of the discrete form; `sampled` sets it, None is for continuous time. Raises
     InputError for numbers that are not positive, and for an unstable loop.
+
+    >>> controller = ba.NPIDController(gait.constraint, K_i=9e4, reset=ba.ResetPolicy.MEASURED)
+    >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
+    1
     """
 
     reference: Reference

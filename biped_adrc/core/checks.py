@@ -84,6 +84,7 @@ TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfin
 _NUMBERS: dict[Any, str] = {
     float: "a number",
     Integral: "a whole number",
+    bool: "true or false",
     str: "a text",
     Mapping: "a Mapping, such as {'torso': 0.2}",
 }

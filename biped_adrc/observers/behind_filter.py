@@ -22,10 +22,11 @@ that does not know the filter takes its lag for a motion of the joint.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
-from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.checks import Range
 from biped_adrc.core.errors import check_positive, check_whole
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices
@@ -75,7 +76,9 @@ class BehindFilterObserver(BehindChain, InjectedChain):
     `from_bandwidth`.
     """
 
-    filter_time: PositiveFloat
+    filter_time: Annotated[
+        float, Range("a time [s], above 0 and at most 1", lambda x: 0.0 < x <= 1.0)
+    ]
     """Time constant tau of the low-pass that it knows [s]."""
     lead: int = field(default=3, kw_only=True)
 

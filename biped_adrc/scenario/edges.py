@@ -108,10 +108,8 @@ def _of_observer(walker: Walker, law: str, observer: Any) -> Iterator[str]:
         for x, name in zip((observer, walker.sensors), _FILTERS, strict=True)
     )
     if observer is not None and knows != has:
-        yield (
-            f"the observer of {law} knows an angle filter of {knows:g} ms, the encoders have one of {has:g} ms;"
-            " the observer 'behind filter' knows it"
-        )
+        what = f"the observer of {law} knows a low-pass of {knows:g} ms on the angles"
+        yield f"{what}, and the encoders have one of {has:g} ms"
     slowest = min(np.abs(getattr(observer, "poles", ())), default=0.0)
     if isinstance(walker.timing, SampledTime) and slowest * walker.timing.period > np.pi:
         yield (

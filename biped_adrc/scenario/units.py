@@ -92,7 +92,8 @@ def unit_of(text: str) -> Unit:
     Raises ValueError for an unknown symbol, and a factor out of range.
     """
     factor, powers = _WHOLE["1"]  # the product begins with 1, without dimension
-    over, *under = text.split("/")
+    # all behind a slash divides, so the brackets of 1/(kg m^2) say nothing more
+    over, *under = re.sub(r"/\(([^()]*)\)", r"/\1", text).split("/")
     for sign, part in [(1, over), *((-1, part) for part in under)]:
         for word in re.split(r"[\s*·]+", part.strip()):
             match = _FACTOR.fullmatch(word)

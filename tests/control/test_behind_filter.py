@@ -68,7 +68,11 @@ def test_a_filter_that_the_observer_does_not_know_is_a_remark(name, remarks):
     o = {"name": name, "bandwidth": W} | ({"filter_time": TAU} if name != "GPI" else {})
     s = ba.Scenario({"name": "LESO", "observer": o}, gait="v0.5", hardware="rabbit")
     walk = ba.walk_scenario(s.replace({"hardware.encoders.angle_filter": TAU, "run.impacts": 1}))
-    found = [x for x in walk.remarks if "angle filter of 0 ms, the encoders have one of 3 ms" in x]
+    found = [
+        x
+        for x in walk.remarks
+        if "low-pass of 0 ms on the angles, and the encoders have one of 3 ms" in x
+    ]
     assert len(found) == remarks
 
 

@@ -152,6 +152,7 @@ def cut(values: Sequence[Any]) -> tuple[NDArray[np.intp], list[str]]:
     Each level is a cell; more than MOST_LEVELS numbers are cut into `CELLS` intervals of equal width, with the
     middles as names.
     """
+    values = [repr(x) if isinstance(x, list) else x for x in values]  # such as b_0 of each joint
     # numbers first, then None, then texts, which cannot be compared with one another
     levels = sorted(
         set(values), key=lambda x: (isinstance(x, str), x is None, 0 if x is None else x)
