@@ -103,13 +103,16 @@ class NPIDController(Controller):
     reset: ResetPolicy = ResetPolicy.MODEL
     cancels: bool = True
     like: tuple[float, ...] = setup(())
-    period: float | None = None
+    period: PositiveFloat | None = None
 
     def __post_init__(self) -> None:
-        """Raise InputError unless all roots of the loop, of e'' = v with the filter, have negative real parts.
+        """Raise InputError unless the loop of e'' = v with the filter is stable, also with v held for a period.
 
-        s^3 (s^2 + 2 zeta w s + w^2) + w^2 (K_d s^2 + K_p s + K_i) = 0
+        s^3 (s^2 + 2 zeta w s + w^2) + w^2 (K_d s^2 + K_p s + K_i) = 0 has roots with negative real parts, and
+        what leads from one tick to the next eigenvalues below 1.
         """
+        if len(self.like) not in (0, 3):
+            raise InputError(f"like is {self.like!r}, expected (); call NPIDController.like_adrc")
         w, zeta = self.filter_bandwidth, self.damping
         # for each joint, where the gains are one per joint
         for K_p, K_d in np.broadcast(self.gains.K_p, self.gains.K_d):
@@ -120,6 +123,21 @@ class NPIDController(Controller):
                     f"K_i = {self.K_i:g} and a filter of {w:g} rad/s; expected K_i well below K_p K_d = "
                     f"{K_p * K_d:g} 1/s^3, and a filter faster than the loop"
                 )
+            if self.period is not None and not self._radius(K_p, K_d, self.period) < 1.0:
+                raise InputError(
+                    f"the loop of NPID is unstable at a period of {self.period:g} s with K_p = {K_p:g}, "
+                    f"K_d = {K_d:g} and a filter of {w:g} rad/s; try a filter below {3.0 / self.period:g} rad/s"
+                )
+
+    def _radius(self, K_p: float, K_d: float, T: float) -> float:
+        """Largest magnitude of the eigenvalues of the sampled loop of e'' = v, at ticks every T [s]."""
+        A, b, _, F = self.filter
+        loop, k = np.zeros((5, 5)), np.array([K_p, K_d, self.K_i])
+        loop[:2, :2] = [[1.0, T], [0.0, 1.0]]
+        Z = np.column_stack((b, 0.0 * b, A))  # after the tick, of (e, e', Z before it)
+        loop[:2] -= np.outer([0.5 * T * T, T], k @ Z)
+        loop[2:] = F @ Z
+        return float(np.max(np.abs(np.linalg.eigvals(loop))))
 
     @classmethod
     def like_adrc(
@@ -198,9 +216,13 @@ class NPIDController(Controller):
         return FilterMatrices(held[:3, :3].copy(), held[:3, 3].copy(), w, np.eye(3))
 
     @derived
-    def before(self) -> Array:
-        """A^-1 (3, 3): from the filter's state after a tick to that before it; 1 in continuous time."""
-        return np.eye(3) if self.period is None else np.linalg.inv(self.filter.A)
+    def before(self) -> tuple[Array, Array]:
+        """M (3, 3) and c (3,): M (Z - c e) before a tick with the error e is the filter's Z after it."""
+        if (
+            self.period is None or self.like
+        ):  # an observer stays where it starts, as it has no innovation
+            return np.eye(3), np.zeros(3)
+        return np.linalg.inv(self.filter.A), self.filter.b
 
     def asked(self, s: FilterState) -> Array:
         """v (p,) [rad/s^2]."""
@@ -227,11 +249,9 @@ class NPIDController(Controller):
         return m.q_b - r.q_d, m.v_b - r.dq_d, d
 
     def placed(self, x: Array, e: Array) -> FilterState:
-        """The filter before a tick with the error e (p,), after which its estimates are x (3, p)."""
-        Z = self.T @ x
-        if self.period is not None:
-            Z = self.before @ (Z - np.outer(self.filter.b, e))
-        return FilterState(*Z)
+        """The filter before a tick with the error e = x_1 (p,), after which its estimates are x (3, p)."""
+        M, c = self.before
+        return FilterState(*(M @ (self.T @ x - np.outer(c, e))))
 
     def initial_state(self, m: Measurement) -> FilterState:
         """The filter at the measured error and its rate, with the model's value of d."""

@@ -36,7 +36,7 @@ from typing import Any, ClassVar, NamedTuple, NoReturn
 import numpy as np
 
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.errors import InputError, check_count, check_positive
+from biped_adrc.core.errors import InputError, check_count, check_positive, check_whole
 from biped_adrc.core.once import once
 from biped_adrc.core.part import Part
 from biped_adrc.core.shown import as_line
@@ -252,6 +252,8 @@ class ChainObserver(Observer):
     """Number of integrators between disturbance and measurement."""
 
     def __post_init__(self) -> None:
+        check_whole(self.m, f"the order m of {type(self).__name__} is {self.m!r}")
+        check_positive(self.scale, f"the scale of {type(self).__name__} is {self.scale!r} rad/s")
         check_chain(self.order, self.scale, type(self).__name__)
 
     @property

@@ -27,7 +27,7 @@ from typing import Annotated
 import numpy as np
 
 from biped_adrc.core.checks import Range
-from biped_adrc.core.errors import check_positive, check_whole
+from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.observers.base import (
@@ -38,6 +38,9 @@ from biped_adrc.observers.base import (
     equal_poles,
 )
 from biped_adrc.observers.gpi import InjectedChain, SampledChain, transition
+
+MOST_SHARE = 0.95
+"""Largest share [1] of a new sample behind the low-pass: beyond it there is no filter, and no L."""
 
 
 class BehindChain(ChainObserver):
@@ -121,6 +124,11 @@ class BehindFilterObserver(BehindChain, InjectedChain):
         """The current discrete observer for ticks every `period` [s]."""
         check_positive(period, f"the sampling period is {period} s")
         share = float(-np.expm1(-period / self.filter_time))
+        if share > MOST_SHARE:
+            raise InputError(
+                f"a low-pass of {self.filter_time:g} s is none at a period of {period:g} s, expected a third "
+                "of it or more; take the observer GPI"
+            )
         return SampledBehindFilter(self.m, 1.0 / period, self, period, share, lead=3)
 
 

@@ -59,6 +59,7 @@ class CascadeObserver(Observer):
     """Number of integrators between disturbance and measurement, as of each level."""
 
     def __post_init__(self) -> None:
+        check_part(self.chains, "the levels of a cascade", tuple)
         for chain in self.chains:
             check_part(chain, "a level of a cascade", ChainObserver)
         alike = {(chain.m, chain.scale) for chain in self.chains}
@@ -76,6 +77,7 @@ class CascadeObserver(Observer):
 
         levels: their number r. ratio: alpha. Raises InputError for values out of range.
         """
+        check_positive(bandwidth, f"the bandwidth of a cascade is {bandwidth!r} rad/s")
         check_count(m, f"the order m of a cascade is {m!r}")
         check_count(levels, f"the number of levels of a cascade is {levels!r}")
         check_positive(ratio, f"the ratio of a cascade's bandwidths is {ratio}", ", such as 3")

@@ -234,6 +234,32 @@ def test_a_pid_like_adrc_is_one_loop_with_it(biped, gait, timing, reset):
     assert abs(free.t_end - walks[0].t_end) > 1e-6  # the limit acted
 
 
+@pytest.mark.parametrize("wT", [5.0, 12.5, 40.0])
+def test_a_pid_like_adrc_starts_where_its_observer_does(biped, gait, wT):
+    """At any bandwidth times period the first torques and those after an impact are ADRC's to 1e-9: no inverse
+    of the nearly singular correction of a fast observer is taken.
+    """
+    h, T = gait.constraint, 5e-3
+    adrc = OutputADRCController(h, GPIObserver.from_bandwidth(wT / T, 1)).sampled(T)
+    pid = NPIDController.like_adrc(h, bandwidth=wT / T).sampled(T)
+    m = Walker(biped, NPDController(h)).measure(0.0, *off_orbit(gait, biped), Mode())
+    states = [law.initial_state(m) for law in (adrc, pid)]
+    for _ in range(2):
+        states = [law.correct(s, m) for law, s in zip((adrc, pid), states, strict=True)]
+        u, v = (law.output(s, m) for law, s in zip((adrc, pid), states, strict=True))
+        assert v == pytest.approx(u, rel=1e-9)
+        states = [law.jump(s, m, SWAP) for law, s in zip((adrc, pid), states, strict=True)]
+
+
+def test_a_filter_too_fast_for_its_ticks_is_refused(gait):
+    """At 1 kHz a filter of 3000 rad/s is taken, one of 8000 rad/s refused: its rate has decayed by the next
+    tick, and on a double integrator the loop with v held over a period is unstable.
+    """
+    NPIDController(gait.constraint, filter_bandwidth=3000.0).sampled(1e-3)
+    with pytest.raises(InputError, match=r"unstable at a period of 0.001 s .* below 3000 rad/s"):
+        NPIDController(gait.constraint, filter_bandwidth=8000.0).sampled(1e-3)
+
+
 def test_the_integral_of_a_pid_follows_the_torque_that_acts(biped, gait):
     """Where no torque acts, K_i s approaches what makes v that of no torque with the time constant T_t: after
     three of them e^-3 of the way is left, with e = e_f = 0.
