@@ -2,6 +2,7 @@
 
 from biped_adrc.analysis.gait_design import design_gait as design_gait
 from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
+from biped_adrc.analysis.rough_ground import rough_ground as rough_ground
 from biped_adrc.analysis.stability import cycle_stability as cycle_stability
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
@@ -66,6 +67,8 @@ from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.ground import StepDown as StepDown
+from biped_adrc.model.ground import StepUp as StepUp
+from biped_adrc.model.ground import stepped as stepped
 from biped_adrc.model.ground import uneven_ground as uneven_ground
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf as biped_from_urdf

@@ -5,17 +5,25 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
+from biped_adrc.analysis.rough_ground import rough_ground
 from biped_adrc.analysis.zero_report import zero_report
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.npd import NPDController
+from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.core.files import write_bytes
+from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import stepped
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import walk_scenario
+from biped_adrc.scenario.walk import walk, walk_scenario
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.placement import Clip
+from biped_adrc.view.plots.rough_ground import rough_ground_figure
 from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
 from biped_adrc.view.style import render
 
@@ -77,7 +85,27 @@ def zero_picture() -> Figure:
     return zero_dynamics_figure(report)
 
 
+def rough_picture() -> Figure:
+    """The map of v0.6 on rough ground, with the steps of a walk over random heights of 0.97 H."""
+    biped = Biped.load("rabbit")
+    gait = load_gait("v0.6", biped)
+    h = continued(gait.constraint)
+    law = ReferenceReset(NPDController(h))
+    ground = rough_ground(Walker(biped, law), gait)
+    heights = np.random.default_rng(1).uniform(-1.0, 1.0, 40) * 0.97 * ground.reach().height
+    result = walk(Walker(biped, law, ground_steps=stepped(-heights)), gait, impacts=40)
+    assert result.feasibility.outcome == "feasible"
+    steps = []
+    for arc, height in zip(result.trajectory.arcs, heights, strict=True):
+        q, v = arc.x[:, : biped.n], arc.x[:, biped.n : 2 * biped.n]
+        s = h.rate * (q @ biped.phase - h.theta_plus)
+        k = int(np.searchsorted(s, law.share))
+        steps.append((height, 0.5 * biped.angular_momentum(q[k], v[k]) ** 2))
+    return rough_ground_figure(ground, steps)
+
+
 def main() -> None:
+    write_bytes(IMAGES / "rough_ground.svg", render(rough_picture(), "svg"))
     for name, (values, cases, clip) in PICTURES.items():
         moving_picture(IMAGES / f"{name}.gif", values, cases, clip)
     write_bytes(IMAGES / "zero.svg", render(zero_picture(), "svg"))

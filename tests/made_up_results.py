@@ -27,7 +27,14 @@ from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.scenario import Scenario
 
 PLAN = Plan(quick=True)
-SUPPORT = {"step": 1, "duration": 0.4, "scuffing": 0.0, "slip": 0.0, "missed_stone": 0.0}
+SUPPORT = {
+    "step": 1,
+    "duration": 0.4,
+    "scuffing": 0.0,
+    "riser": 0.0,
+    "slip": 0.0,
+    "missed_stone": 0.0,
+}
 SUPPORT |= {"rate_share": 0.0, "beyond_range": 0.0, "joints": {}}
 FORCES = {"least_normal_force": 200.0, "friction": 0.4, "impulse_ratio": 0.5, "peak_torque": 100.0}
 MEANS = {"mean_normal_force": 200.0, "mean_friction": 0.4}

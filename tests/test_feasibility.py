@@ -366,6 +366,34 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     assert np.max(demands(up, Nodes.of(dipped), 5e-3, 1)[0][2]) == pytest.approx(0.002)
 
 
+@pytest.mark.parametrize(("gap", "depth"), [(1e-3, 0.0), (-1e-3, 1e-3)])
+def test_the_ground_joins_the_footholds_by_straight_lines(walker, gap, depth):
+    """From a foothold 20 mm above to one 30 mm below the stance foot, the swing foot moves along both lines, a
+    gap above or below them. With risers it is in the ground from the first foothold on: up to 20 mm before the
+    stance foot, and 30 mm at 97 % of the way to the next one, less the gap. On a slope lines are the same.
+    """
+    t = grid()
+    x = np.linspace(-0.4, 0.4, len(t))
+    height = np.interp(x, [-0.4, 0.0, 0.4], [0.02, 0.0, -0.03]) + gap
+    height[[0, -1]] -= gap
+    for tilted in (walker, replace(walker, slope=0.05)):
+        n = handmade_on(tilted, t, x, height)
+        after = n.rows[-1, -4:-2] + ground_axes(tilted.ground_slope)[1]
+        (found,) = supports(tilted, n, KNOWN, 1, after)
+        assert found.scuffing == pytest.approx(depth, abs=1e-12)
+        assert list(found.infeasible()) == (["scuffing"] if depth else [])
+    # x at 97 % of the time is 0.94 of the way; nodes are 0.2 mm apart
+    (found,) = supports(walker, handmade_on(walker, t, x, height), KNOWN, 1, after)
+    assert found.riser == pytest.approx(0.94 * 0.03 - gap, abs=5e-5)
+
+
+def handmade_on(walker, t, x, height):
+    """Nodes of a swing foot that moves along x [m] at these heights [m]."""
+    n = handmade(walker, t, np.full(len(t), WEIGHT), height=height)
+    n.rows[:, -2] = x
+    return n
+
+
 # -- the first violation ---------------------------------------------------------------------------
 LATER = {"torque": 0.0, "scuffs": 0.0, "F_N": 3.75e-3, "friction": 3.6e-3}
 """Delay [s] from the beginning of a violation until it is found: forces are means over 5 ms, which leave the
@@ -585,6 +613,7 @@ def test_clearance_is_that_of_the_middle_of_the_step(biped, gait):
         inside = np.flatnonzero((share > begins) & (share < ends))
         for at in (inside[1], inside[-2]):
             height = np.full(len(s.t), 0.05)
+            height[[0, -1]] = 0.0  # the footholds
             height[at] = lowest
             heights = np.column_stack((s.swing_foot[:, 0], height))
             (found,) = certificates(walk.walker, walk.trajectory, replace(s, swing_foot=heights))

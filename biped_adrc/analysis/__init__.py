@@ -14,6 +14,9 @@ Of a closed loop or a gait:
 - `tick_derivative`                derivative of a sample instant, for `variational` and `loops`
 - `zero_report`                    what the zero dynamics predict of a gait
 - `stride_gain`                    gains of a PI controller that corrects the walking speed once in each step
+- `rough_ground`, `stride_map`     how rough a ground a gait bears, by the map of one number from step to step
+- `rough_estimate`                 an estimate of the same for any controller, by one simulated step per height
+- `forced_map`                     gains from heights, forces and wrong masses to the next steps, of full order
 - `gait_design`                    a gait for a speed, proved by a simulated walk
 - `observer`                       what an observer demands of encoders, sampling and motors
 - `loops`                          margins of the sampled loop of a whole walker

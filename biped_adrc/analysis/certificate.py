@@ -78,7 +78,11 @@ class Support(Shown):
     mean_friction: float
     """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
-    """Largest depth of the swing foot below the lower foothold, not counted near the ends of the step [m]."""
+    """Largest depth of the swing foot below the straight lines between footholds [m], but near the ends of the
+    step."""
+    riser: float
+    """The same where the ground is level up to a riser just before each foothold [m]: a harder ground, which
+    does not count."""
     slip: float
     """Largest distance that a foot slips on soft ground [m]; 0 on the rigid plant."""
     missed_stone: float
@@ -227,7 +231,7 @@ def supports(
     """
     k = k if slips is None else k._replace(friction=math.inf)
     t, plant, count = n.at.t, walker.plant, len(n.steps)
-    # rows 0 to 5: the numbers of AT_NODES; rows 6 to 8: the joint that has each of the last three
+    # rows 0 to 5: the numbers of AT_NODES; 6 to 8: the joint that has each of the last three; 9: with risers
     _, needed = demands(walker, n, k.window, impacts)
     # not strict: the rows of the joints are left out
     worst = dict(zip(AT_NODES, needed, strict=False)) | at_ends(walker, n, k, impacts, after)
@@ -239,14 +243,17 @@ def supports(
     worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
     worst["slip"] = np.zeros(count) if slips is None else np.asarray(slips, dtype=float)
     # OF_JOINTS: the numbers that belong to one joint: torque, rate, range
-    which = needed[len(AT_NODES) :].T.tolist() if n.p else [()] * count
+    which = needed[len(AT_NODES) : -1].T.tolist() if n.p else [()] * count
     joints = [
         {name: joint_of(plant, i, step) for name, i in zip(OF_JOINTS, each, strict=False)}
         for step, each in zip(n.steps, which, strict=True)
     ]
-    numbers = (t[n.last] - t[n.edges[:-1]], *(worst[name] for name in REASONS))
+    numbers = (t[n.last] - t[n.edges[:-1]], needed[-1], *(worst[name] for name in REASONS))
     columns: list[Any] = [n.steps, joints, *(x.tolist() for x in numbers)]
-    names, rows = ("step", "joints", "duration", *REASONS.values()), zip(*columns, strict=True)
+    names, rows = (
+        ("step", "joints", "duration", "riser", *REASONS.values()),
+        zip(*columns, strict=True),
+    )
     return tuple(Support(**dict(zip(names, row, strict=True)), limits=k) for row in rows)
 
 
@@ -303,9 +310,9 @@ def certificates(
 def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Certificate:
     """Certificate of a step that ended in an impact at x- = (q, q', ...), the end of its arc.
 
-    s: signals of the step. support: its extremes. The height of the swing foot is above the ground on which the
-    step ends: by slope and `walker.drop` [m], how much lower a step of the ground is than the plane through the
-    stance foot. Friction is infinite where the ground never pushed.
+    s: signals of the step. support: its extremes. The height of the swing foot is above the straight lines from
+    the foothold that it left to the stance foot and on to the next one. Friction is infinite where the ground
+    never pushed.
     """
     b, p = walker.plant, walker.plant.p
     q, v, _ = walker.split_state(arc.x[-1])
@@ -314,7 +321,8 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     # the middle of the step, up to round-off of times
     # ENDS: share of the step at either end, where the foot may touch the ground
     inner = np.abs(since - 0.5 * duration) < (0.5 - ENDS) * duration - SAME_INSTANT
-    height = s.swing_foot @ (math.tan(walker.ground_slope), 1.0) + walker.drop(support.step)
+    (x, z), ends = s.swing_foot.T, np.array([s.swing_foot[0], (0.0, 0.0), s.swing_foot[-1]]).T
+    height = z - np.interp(x, *ends)
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.ground_slope)
     # F (nodes, 2): force along the ground and out of it; its ratio is -inf at nodes where it does not push

@@ -63,18 +63,19 @@ def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -
 
 @inner
 def keep_worst(numbers: Array, count: int, worst: Array, begins: bool) -> None:
-    """Keep what is worse than in the nodes before in `worst` (9,): the least F_N, the largest of the five
-    numbers after it, and the joints of the last three. A NaN is the worst.
+    """Keep what is worse than in the nodes before in `worst` (10,): the least F_N, the largest of the five
+    numbers after it and of the last one, and the joints of those from the fourth on. A NaN is the worst.
 
-    numbers: pointer to the node's place in the first of nine rows of `count` numbers. begins: whether it is
-    the first node of its single support.
+    numbers: pointer to the node's place in the first of ten rows of `count` numbers. begins: whether it is the
+    first node of its single support.
     """
-    for j in range(6):
+    for i in range(7):
+        j = i if i < 6 else 9
         x, y = numbers[j * count], worst[j]
         worse = x < y if j == 0 else x > y
         if begins or ((worse or x != x) and y == y):
             worst[j] = x
-            if j > 2:  # of a joint: torque, rate or angle
+            if 2 < j < 6:  # of a joint: torque, rate or angle
                 worst[3 + j] = numbers[(3 + j) * count]
 
 
@@ -110,28 +111,34 @@ def demands(
     out: Array,
     worst: Array,
 ) -> None:
-    """Write for each node to out (11, K): F_N [N] and |F_T| / F_N of the mean force in the window up to it,
+    """Write for each node to out (12, K): F_N [N] and |F_T| / F_N of the mean force in the window up to it,
     F_N out of the ground and F_T along it; depth of the swing foot below the ground [m]; the six numbers of
-    `loads`; and P - int f dt (2, K) [N s].
+    `loads`; the depth where risers stand just before the footholds [m]; and P - int f dt (2, K) [N s].
+
+    The ground joins the footholds by straight lines: the foothold that the swing foot left, the stance foot at
+    (0, 0), and the foothold on which the single support ends.
 
     rows (K, width): the nodes. at: where in a row each column begins. first (S + 1,): first node of each of the
     S = `supports` single supports, and K; the first `impacts` of them ended in an impact. known: constants of
     the walk, `ground_force.Known`, each at its place WINDOW, WEIGHT and so on, and the S falls of the ground.
-    worst (S, 9): here `keep_worst` keeps the worst of each single support.
+    worst (S, 10): here `keep_worst` keeps the worst of each single support.
     """
     count, before, foot, P = first[supports], rows, at[FOOT], at[MOMENTUM]
     F_N, ratio, depth = out, shift(out, count), shift(out, 2 * count)
-    P_x, P_z, pushed_x, pushed_z = shift(out, 9 * count), shift(out, 10 * count), 0.0, 0.0
+    risers, P_x, P_z = shift(out, 9 * count), shift(out, 10 * count), shift(out, 11 * count)
+    pushed_x, pushed_z = 0.0, 0.0
     window, weight, tangent = known[WINDOW], known[WEIGHT], known[TANGENT]
     ends, same, along, normal = known[NEAR], known[SAME], shift(known, ALONG), shift(known, NORMAL)
     joints, falls = shift(known, JOINTS), shift(known, JOINTS + 6 * p)
-    # i: last node before a window begins. above: whether the foot was above the ground in this single support.
-    # near, far: times since its start between which a depth of the swing foot counts, since for the share
-    # `ends` of its duration at either end the foot may touch; without an impact at its end the depth there
-    # counts too. same: round-off of times; along, normal (2,): unit vectors of the ground. before: the node
-    # before, at the first node itself; half: half the time since it, for the trapezoidal rule; pushed: int f dt
+    # i: last node before a window begins. left, next: places (x, z) of the two other footholds; falls[s]: by
+    # how much the next one is lower, where it was not reached. near, far: times since the start between which
+    # a depth of the swing foot counts, since for the share `ends` of the duration at either end the foot may
+    # touch; without an impact at its end the depth there counts too. same: round-off of times; along, normal
+    # (2,): unit vectors of the ground. before: the node before, at the first node itself; half: half the time
+    # since it, for the trapezoidal rule; pushed: int f dt
     for s in range(supports):
-        i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
+        i, last, start = first[s], first[s + 1] - 1, rows[first[s] * width]
+        left, next = shift(rows, i * width + foot), shift(rows, last * width + foot)
         duration = rows[last * width] - start
         w, near = min(window, duration), ends * duration + same
         far = (1.0 - ends) * duration - same if s < impacts else math.inf
@@ -142,7 +149,7 @@ def demands(
             pushed_z += half * (row[OUTSIDE + 1] + before[OUTSIDE + 1])
             before = row
             P_x[k], P_z[k] = row[P] - pushed_x, row[P + 1] - pushed_z
-            F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0  # no mean force, no depth
+            F_N[k], ratio[k], depth[k], risers[k] = math.inf, -math.inf, 0.0, 0.0  # none
             loads(row, at, p, joints, shift(out, 3 * count + k), count)
             # SHORTEST: a shorter single support has no mean force. `same`: t - start may fall short of w by
             # round-off where a window begins at the touchdown
@@ -158,15 +165,18 @@ def demands(
                 F_N[k] = F_x * normal[0] + F_z * normal[1]
                 if not F_N[k] <= 0.0:  # so that NaN goes on into the ratio
                     ratio[k] = abs(F_x * along[0] + F_z * along[1]) / F_N[k]
-            # of the swing foot above the ground at the height of the lower foothold; falls[s]: by how much
-            # the ground at the end of this single support is lower than at its start
-            height = row[foot + 1] + tangent * row[foot] + falls[s]
-            if height > 0.0:
-                above = True
-            elif above and near < since < far:
-                # 0.0 - height is never -0.0, as -height is for 0
-                depth[k] = 0.0 - height
-            keep_worst(shift(out, k), count, shift(worst, 9 * s), k == first[s])
+            x, z = row[foot], row[foot + 1]
+            line = riser = -tangent * x - falls[s]  # ahead, before the next foothold is known
+            if x < 0.0 and left[0] < 0.0:
+                line = left[1] * min(x / left[0], 1.0)
+                riser = left[1] - tangent * (x - left[0])
+            elif s < impacts and next[0] > 0.0:
+                line = next[1] * min(max(x / next[0], 0.0), 1.0)
+                riser = -tangent * x
+            if near < since < far:
+                # max(0, ..) and not -height, so that a depth is never -0.0
+                depth[k], risers[k] = max(0.0, line - z), max(0.0, riser - z)
+            keep_worst(shift(out, k), count, shift(worst, 10 * s), k == first[s])
 
 
 @unit

@@ -132,6 +132,7 @@ class Feasibility(Shown):
     mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least mean F_N [N].")
     mean_friction = _over_steps(np.max, "mean_friction", "Largest mean |F_T| / F_N [1].")
     scuffing = _over_steps(np.max, "scuffing", "Largest depth of scuffing [m].")
+    riser = _over_steps(np.max, "riser", "Largest depth of scuffing before risers [m].")
     peak_torque = _over_steps(np.max, "peak_torque", "Largest |u_i| [N m].")
     impulse_ratio = _over_steps(
         np.max, "impulse_ratio", "Largest |F_T| / F_N of an impulse, 0 without impact."
@@ -167,7 +168,7 @@ def first_violation(
     result = []
     # rows 0 to 5: the numbers of AT_NODES; rows 6 to 8: the joint that has each of the last three
     needed, _ = demands(walker, n, k.window, impacts)
-    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True)) if n.p else {}
+    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=False)) if n.p else {}
     # numbers: what the limits apply to, by the limit's name; not strict: the rows of joints are left out
     numbers = dict(zip(AT_NODES, needed, strict=False)) | at_ends(walker, n, k, impacts, after)
     for name, x in numbers.items():

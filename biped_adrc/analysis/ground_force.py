@@ -148,30 +148,31 @@ def _loops() -> Any:
 
 
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> tuple[Array, Array]:
-    """Compute what each of the K nodes `n` of a walk demands of ground and joints, rows (9, K), and the worst
-    of them in each of the S single supports (9, S).
+    """Compute what each of the K nodes `n` of a walk demands of ground and joints, rows (10, K), and the worst
+    of them in each of the S single supports (10, S).
 
     0, 1: F_N [N] and |F_T| / F_N of the mean ground force over the window [s] that ends at the node; 2: depth
     of the swing foot below the ground [m]; 3, 4, 5: over the joints the largest |u_i| [N m], |q_i'| over its
-    limit [1], and angle beyond its range [rad]; 6, 7, 8: the joint, from 0, that has each of these three. The
-    worst is the least F_N and the largest of the others, or NaN.
+    limit [1], and angle beyond its range [rad]; 6, 7, 8: the joint, from 0, that has each of these three; 9:
+    the depth if risers stood just before the footholds [m]. The worst is the least F_N and the largest of the
+    others, or NaN.
 
     Where no window ends at a node, F_N is inf and the ratio -inf; the ratio is -inf too where the ground does
-    not push. In a single support shorter than the window the mean is over all of it. The ground has the height
-    of the lower of the two footholds. Depth counts from the first node with the foot above it, since the foot
-    may come from lower ground, and not near the ends of a single support. Only the first `impacts` single
-    supports ended in an impact; of the others the end counts too.
+    not push. In a single support shorter than the window the mean is over all of it. Footholds are joined by
+    straight lines; with risers the ground is level up to the next foothold. Depth does not count near the ends
+    of a single support. Only the first `impacts` single supports ended in an impact; of the others the end
+    counts too, and the ground ahead has the height of the lower foothold.
     """
     # how much the ground at the end of each single support is lower than at its start [m], 0 if higher
     falls = [max(walker.drop(step), 0.0) for step in n.steps]
     known = np.concatenate((_known(walker.plant, walker.ground_slope, window), falls))
     # the compiled loop gets addresses, so what they lead to needs names: it has to live until the loop returns
-    result, worst = np.empty((11, len(n.rows))), np.empty((len(falls), 9))
+    result, worst = np.empty((12, len(n.rows))), np.empty((len(falls), 10))
     first, *more = (x.ctypes.data for x in (n.edges, known, result, worst))
     # _loops: the compiled functions of `analysis.demands`
     _loops().demands(*n.pointers, first, len(falls), impacts, *more)
     # the last two rows are intermediate results of the loop
-    return result[:9], worst.T
+    return result[:10], worst.T
 
 
 def totals(n: Nodes) -> list[float]:

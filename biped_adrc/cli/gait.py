@@ -185,12 +185,27 @@ def gait_show(
     usual = {"friction": biped.description.friction_coefficient, "slope": result.slope}
     report = ba.zero_report(biped, result.constraint, with_sets(DomainLimits, sets, usual))
     console.say(report.text())
+    _say_rough(biped, result)
     if plot is not None:
         from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
         from biped_adrc.view.style import write_figure
 
         write_figure(plot, zero_dynamics_figure(report))
         console.written(plot)
+
+
+def _say_rough(biped: ba.Biped, gait: ba.Gait) -> None:
+    """Print how rough a ground the gait bears, continued and with ReferenceReset, or why that is not known."""
+    from biped_adrc.gait.constraint import continued
+
+    console.print(
+        "heights of steps that all sequences may have, with ReferenceReset:", highlight=False
+    )
+    try:
+        law = ba.ReferenceReset(ba.NPDController(continued(gait.constraint)))
+        console.say(ba.rough_ground(ba.Walker(biped, law), gait).text())
+    except InputError as error:
+        console.say(f"none: {error}")
 
 
 def _say_origin(gait: ba.Gait) -> None:

@@ -7,6 +7,8 @@ robot and controller, holds the slope and the tuple of steps; an impact is where
 over that ground comes down to zero.
 
 A drop [m] is how much lower the ground lies where a single support ends than at its stance foot; < 0 for up.
+Between footholds, which are level pads, the ground is a straight line: above it the swing foot has to stay, but
+at both ends of a step. A riser just before the foothold is a harder ground, which is judged beside it.
 
 Stones are stepping stones: footholds at prescribed distances. All this ground is rigid; `SoftGround` has the
 numbers of a compliant one, for a plant that MuJoCo simulates.
@@ -113,9 +115,11 @@ class StepUp(GroundStep):
     """A step up: the ground on which single support `step` (from 1) ends lies `height`
     [m] above its stance foot.
 
-    The swing foot starts below that level; an impact is where it comes down on it after it has been above. The
-    vertical face of the step is not part of the model, so whether the foot clears it is not checked. Raises
-    InputError for a height that is not positive; a step down is a `StepDown`.
+    The swing foot starts below that level; an impact is where it comes down on it after it has been above.
+    Raises InputError for a height that is not positive; a step down is a `StepDown`.
+
+    >>> ba.StepUp(step=2, height=0.01).drop
+    -0.01
     """
 
 
@@ -195,8 +199,13 @@ def uneven_ground(seed: int, rms: float, steps: int) -> Steps:
 
 
 def stepped(drops: Array, first: int = 1) -> Steps:
-    """Steps of the ground by their drops [m], up where negative: drops[i] is that of single support first + i;
-    a drop of 0 makes no step.
+    """Make steps of the ground of its drops.
+
+    drops [m]: that of single support first + i at place i, up where negative; 0 makes no step. first: number of
+    the first single support.
+
+    >>> ba.stepped(np.array([0.0, 0.01, -0.02]))
+    (StepDown(step=2, height=0.01), StepUp(step=3, height=0.02))
     """
     return tuple(
         StepDown(step, drop) if drop > 0.0 else StepUp(step, -drop)

@@ -68,7 +68,10 @@ WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
 Function = Callable[[Sequence[PlainValues]], Sequence[Any]]
 """What workers run: from records (values of one walk each) to a row of plain values for each, in order."""
-JUDGED = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "peak_torque")
+JUDGED = (
+    *("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "riser"),
+    "peak_torque",
+)
 """Columns that `Feasibility` has under the same names."""
 OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
 """Columns of `analysis.ground_force.totals`."""

@@ -1,4 +1,4 @@
-; sources dccaaf1fabcb06222f6385067d9fe639, text 02accc760a2440f968ffbd4fa2933ff6
+; sources a1c3ce2fa576fcf7c5e1b98c375e2950, text 68e4f776bafcff8e02c2114e98859b55
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels5edgesB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx8int64_2a = weak local_unnamed_addr global ptr null
@@ -211,14 +211,14 @@ entry:
 
 define i32 @_ZN18biped_adrc_kernels7demandsB4v122B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2ax8int64_2axx10float64_2a10float64_2a10float64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.rows, i64 %arg.width, ptr readonly %arg.at, i64 %arg.p, ptr readonly %arg.first, i64 %arg.supports, i64 %arg.impacts, ptr readonly %arg.known, ptr %arg.out, ptr %arg.worst) local_unnamed_addr #2 {
 B0.endif:
-  %.673 = alloca ptr, align 8
-  store ptr null, ptr %.673, align 8
+  %.715 = alloca ptr, align 8
+  store ptr null, ptr %.715, align 8
   %excinfo.2 = alloca ptr, align 8
   store ptr null, ptr %excinfo.2, align 8
-  %.1167 = alloca ptr, align 8
-  store ptr null, ptr %.1167, align 8
-  %excinfo.5 = alloca ptr, align 8
-  store ptr null, ptr %excinfo.5, align 8
+  %.1436 = alloca ptr, align 8
+  store ptr null, ptr %.1436, align 8
+  %excinfo.10 = alloca ptr, align 8
+  store ptr null, ptr %excinfo.10, align 8
   %.31 = getelementptr i64, ptr %arg.first, i64 %arg.supports
   %.32 = load i64, ptr %.31, align 8
   %.34 = getelementptr i8, ptr %arg.at, i64 64
@@ -232,295 +232,345 @@ B0.endif:
   %.80 = getelementptr i8, ptr %arg.out, i64 %.80.idx
   %.84.idx = mul i64 %.32, 80
   %.84 = getelementptr i8, ptr %arg.out, i64 %.84.idx
-  %.106 = load double, ptr %arg.known, align 8
-  %.107 = getelementptr i8, ptr %arg.known, i64 8
-  %.108 = load double, ptr %.107, align 8
-  %.109 = getelementptr i8, ptr %arg.known, i64 16
-  %.110 = load double, ptr %.109, align 8
-  %.120 = getelementptr i8, ptr %arg.known, i64 24
+  %.88.idx = mul i64 %.32, 88
+  %.88 = getelementptr i8, ptr %arg.out, i64 %.88.idx
+  %.117 = load double, ptr %arg.known, align 8
+  %.118 = getelementptr i8, ptr %arg.known, i64 8
+  %.119 = load double, ptr %.118, align 8
+  %.120 = getelementptr i8, ptr %arg.known, i64 16
   %.121 = load double, ptr %.120, align 8
-  %.122 = getelementptr i8, ptr %arg.known, i64 64
-  %.123 = load double, ptr %.122, align 8
-  %.146 = getelementptr i8, ptr %arg.known, i64 72
+  %.131 = getelementptr i8, ptr %arg.known, i64 24
+  %.132 = load double, ptr %.131, align 8
+  %.133 = getelementptr i8, ptr %arg.known, i64 64
+  %.134 = load double, ptr %.133, align 8
+  %.157 = getelementptr i8, ptr %arg.known, i64 72
   %.idx = mul i64 %arg.p, 48
   %0 = getelementptr i8, ptr %arg.known, i64 %.idx
-  %.150 = getelementptr i8, ptr %0, i64 72
-  %.239232.not = icmp slt i64 %arg.supports, 1
-  br i1 %.239232.not, label %common.ret, label %B596.lr.ph
+  %.161 = getelementptr i8, ptr %0, i64 72
+  %invariant.gep = getelementptr double, ptr %arg.rows, i64 %.35
+  %.250282.not = icmp slt i64 %arg.supports, 1
+  br i1 %.250282.not, label %common.ret, label %B630.lr.ph
 
-B596.lr.ph:
-  %.376 = fsub double 1.000000e+00, %.121
-  %.idx195 = mul i64 %.32, 24
-  %1 = getelementptr i8, ptr %arg.out, i64 %.idx195
+B630.lr.ph:
+  %.396 = fsub double 1.000000e+00, %.132
+  %.idx217 = mul i64 %.32, 24
+  %1 = getelementptr i8, ptr %arg.out, i64 %.idx217
+  %.1093 = fneg double %.121
   %2 = shl i64 %arg.width, 3
-  %sunkaddr72 = getelementptr i8, ptr %arg.known, i64 48
-  %sunkaddr73 = getelementptr i8, ptr %arg.known, i64 56
-  %sunkaddr80 = getelementptr i8, ptr %arg.known, i64 32
-  %sunkaddr81 = getelementptr i8, ptr %arg.known, i64 40
-  br label %B596.endif
+  %sunkaddr109 = getelementptr i8, ptr %arg.known, i64 48
+  %sunkaddr110 = getelementptr i8, ptr %arg.known, i64 56
+  %sunkaddr119 = getelementptr i8, ptr %arg.known, i64 32
+  %sunkaddr120 = getelementptr i8, ptr %arg.known, i64 40
+  br label %B630.endif
 
-B594.loopexit:
-  %before.2.1.lcssa = phi ptr [ %before.3.0235, %B596.endif ], [ %.563, %B872.backedge ]
-  %pushed_x.2.1.lcssa = phi double [ %pushed_x.3.0236, %B596.endif ], [ %.598, %B872.backedge ]
-  %pushed_z.2.1.lcssa = phi double [ %pushed_z.3.0237, %B596.endif ], [ %.617, %B872.backedge ]
-  %exitcond.not = icmp eq i64 %.252, %arg.supports
-  br i1 %exitcond.not, label %common.ret, label %B596.endif
+B628.loopexit:
+  %before.2.1.lcssa = phi ptr [ %before.3.0285, %B630.endif ], [ %.577, %B984.backedge ]
+  %pushed_x.2.1.lcssa = phi double [ %pushed_x.3.0286, %B630.endif ], [ %.612, %B984.backedge ]
+  %pushed_z.2.1.lcssa = phi double [ %pushed_z.3.0287, %B630.endif ], [ %.631, %B984.backedge ]
+  %exitcond.not = icmp eq i64 %.263, %arg.supports
+  br i1 %exitcond.not, label %common.ret, label %B630.endif
 
-B874:
-  %above.2.1225 = phi i1 [ false, %B874.lr.ph ], [ %above.3.2, %B872.backedge ]
-  %i.2.1224 = phi i64 [ %.283, %B874.lr.ph ], [ %i.3.2, %B872.backedge ]
-  %pushed_z.2.1223 = phi double [ %pushed_z.3.0237, %B874.lr.ph ], [ %.617, %B872.backedge ]
-  %pushed_x.2.1222 = phi double [ %pushed_x.3.0236, %B874.lr.ph ], [ %.598, %B872.backedge ]
-  %before.2.1221 = phi ptr [ %before.3.0235, %B874.lr.ph ], [ %.563, %B872.backedge ]
-  %.513216220 = phi i64 [ %.470, %B874.lr.ph ], [ %.523, %B872.backedge ]
-  %.520217219 = phi i64 [ %.283, %B874.lr.ph ], [ %.527, %B872.backedge ]
-  %.523 = add nsw i64 %.513216220, -1
-  %.527 = add i64 %.520217219, 1
-  %.561 = mul nsw i64 %.520217219, %arg.width
-  %.563 = getelementptr double, ptr %arg.rows, i64 %.561
-  %.569 = load double, ptr %.563, align 8
-  %.574 = fsub double %.569, %.298
-  %.580 = load double, ptr %before.2.1221, align 8
-  %.581 = fsub double %.569, %.580
-  %.582 = fmul double %.581, 5.000000e-01
-  %.590 = getelementptr i8, ptr %.563, i64 16
-  %.591 = load double, ptr %.590, align 8
-  %.593 = getelementptr i8, ptr %before.2.1221, i64 16
-  %.594 = load double, ptr %.593, align 8
-  %.595 = fadd double %.591, %.594
-  %.596 = fmul double %.582, %.595
-  %.598 = fadd double %pushed_x.2.1222, %.596
-  %.606 = getelementptr i8, ptr %.563, i64 24
-  %.607 = load double, ptr %.606, align 8
-  %.610 = getelementptr i8, ptr %before.2.1221, i64 24
-  %.611 = load double, ptr %.610, align 8
-  %.614 = fadd double %.607, %.611
-  %.615 = fmul double %.582, %.614
-  %.617 = fadd double %pushed_z.2.1223, %.615
-  %.629 = getelementptr double, ptr %.563, i64 %.38
-  %.630 = load double, ptr %.629, align 8
-  %.632 = fsub double %.630, %.598
-  %.636 = getelementptr i8, ptr %.629, i64 8
-  %.637 = load double, ptr %.636, align 8
-  %.639 = fsub double %.637, %.617
-  %.642 = getelementptr double, ptr %.80, i64 %.520217219
-  store double %.632, ptr %.642, align 8
-  %.646 = getelementptr double, ptr %.84, i64 %.520217219
-  store double %.639, ptr %.646, align 8
-  %.651 = getelementptr double, ptr %arg.out, i64 %.520217219
-  store double 0x7FF0000000000000, ptr %.651, align 8
-  %.655 = getelementptr double, ptr %.62, i64 %.520217219
-  store double 0xFFF0000000000000, ptr %.655, align 8
-  %.659 = getelementptr double, ptr %.66, i64 %.520217219
-  store double 0.000000e+00, ptr %.659, align 8
-  %.667 = getelementptr double, ptr %1, i64 %.520217219
-  store ptr null, ptr %.673, align 8
-  %.677 = call i32 @_ZN18biped_adrc_kernels5loadsB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.673, ptr nonnull %excinfo.2, ptr nonnull %.563, ptr %arg.at, i64 %arg.p, ptr %.146, ptr %.667, i64 %.32)
-  %cond = icmp eq i32 %.677, 0
-  br i1 %cond, label %B874.endif, label %common.ret, !prof !2
+B986:
+  %i.2.1273 = phi i64 [ %.294, %B986.lr.ph ], [ %i.3.2, %B984.backedge ]
+  %pushed_z.2.1272 = phi double [ %pushed_z.3.0287, %B986.lr.ph ], [ %.631, %B984.backedge ]
+  %pushed_x.2.1271 = phi double [ %pushed_x.3.0286, %B986.lr.ph ], [ %.612, %B984.backedge ]
+  %before.2.1270 = phi ptr [ %before.3.0285, %B986.lr.ph ], [ %.577, %B984.backedge ]
+  %.527265269 = phi i64 [ %.484, %B986.lr.ph ], [ %.537, %B984.backedge ]
+  %.534266268 = phi i64 [ %.294, %B986.lr.ph ], [ %.541, %B984.backedge ]
+  %.537 = add nsw i64 %.527265269, -1
+  %.541 = add i64 %.534266268, 1
+  %.575 = mul nsw i64 %.534266268, %arg.width
+  %.577 = getelementptr double, ptr %arg.rows, i64 %.575
+  %.583 = load double, ptr %.577, align 8
+  %.588 = fsub double %.583, %.309
+  %.594 = load double, ptr %before.2.1270, align 8
+  %.595 = fsub double %.583, %.594
+  %.596 = fmul double %.595, 5.000000e-01
+  %.604 = getelementptr i8, ptr %.577, i64 16
+  %.605 = load double, ptr %.604, align 8
+  %.607 = getelementptr i8, ptr %before.2.1270, i64 16
+  %.608 = load double, ptr %.607, align 8
+  %.609 = fadd double %.605, %.608
+  %.610 = fmul double %.596, %.609
+  %.612 = fadd double %pushed_x.2.1271, %.610
+  %.620 = getelementptr i8, ptr %.577, i64 24
+  %.621 = load double, ptr %.620, align 8
+  %.624 = getelementptr i8, ptr %before.2.1270, i64 24
+  %.625 = load double, ptr %.624, align 8
+  %.628 = fadd double %.621, %.625
+  %.629 = fmul double %.596, %.628
+  %.631 = fadd double %pushed_z.2.1272, %.629
+  %.643 = getelementptr double, ptr %.577, i64 %.38
+  %.644 = load double, ptr %.643, align 8
+  %.646 = fsub double %.644, %.612
+  %.650 = getelementptr i8, ptr %.643, i64 8
+  %.651 = load double, ptr %.650, align 8
+  %.653 = fsub double %.651, %.631
+  %.656 = getelementptr double, ptr %.84, i64 %.534266268
+  store double %.646, ptr %.656, align 8
+  %.660 = getelementptr double, ptr %.88, i64 %.534266268
+  store double %.653, ptr %.660, align 8
+  %.689 = getelementptr double, ptr %arg.out, i64 %.534266268
+  store double 0x7FF0000000000000, ptr %.689, align 8
+  %.693 = getelementptr double, ptr %.62, i64 %.534266268
+  store double 0xFFF0000000000000, ptr %.693, align 8
+  %.697 = getelementptr double, ptr %.66, i64 %.534266268
+  store double 0.000000e+00, ptr %.697, align 8
+  %.701 = getelementptr double, ptr %.80, i64 %.534266268
+  store double 0.000000e+00, ptr %.701, align 8
+  %.709 = getelementptr double, ptr %1, i64 %.534266268
+  store ptr null, ptr %.715, align 8
+  %.719 = call i32 @_ZN18biped_adrc_kernels5loadsB4v123B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2a8int64_2ax10float64_2a10float64_2ax(ptr nonnull %.715, ptr nonnull %excinfo.2, ptr nonnull %.577, ptr %arg.at, i64 %arg.p, ptr %.157, ptr %.709, i64 %.32)
+  %cond = icmp eq i32 %.719, 0
+  br i1 %cond, label %B986.endif, label %common.ret, !prof !2
 
-B1442:
-  %.716 = add nsw i64 %i.2.1224, 1
-  %.718 = icmp slt i64 %.716, %.289
-  br i1 %.718, label %B1460, label %B1572
+B1568:
+  %.758 = add nsw i64 %i.2.1273, 1
+  %.760 = icmp slt i64 %.758, %.300
+  br i1 %.760, label %B1586, label %B1698
 
-B1460:
-  %.732 = mul nsw i64 %.716, %arg.width
-  %.734 = getelementptr double, ptr %arg.rows, i64 %.732
-  %.735 = load double, ptr %.734, align 8
-  %.738 = fsub double %.569, %.13.i
-  %.739 = fcmp ugt double %.735, %.738
-  br i1 %.739, label %B1572, label %B1502.preheader
+B1586:
+  %.774 = mul nsw i64 %.758, %arg.width
+  %.776 = getelementptr double, ptr %arg.rows, i64 %.774
+  %.777 = load double, ptr %.776, align 8
+  %.780 = fsub double %.583, %.13.i
+  %.781 = fcmp ugt double %.777, %.780
+  br i1 %.781, label %B1698, label %B1628.preheader
 
-B1502.preheader:
-  %3 = add i64 %i.2.1224, 2
+B1628.preheader:
+  %3 = add i64 %i.2.1273, 2
   %4 = mul i64 %3, %2
   %scevgep = getelementptr i8, ptr %arg.rows, i64 %4
-  br label %B1502
+  br label %B1628
 
-B1502:
-  %lsr.iv = phi ptr [ %scevgep, %B1502.preheader ], [ %scevgep67, %B1530 ]
-  %i.5.4 = phi i64 [ %i.2.1224, %B1502.preheader ], [ %.745, %B1530 ]
+B1628:
+  %lsr.iv = phi ptr [ %scevgep, %B1628.preheader ], [ %scevgep104, %B1656 ]
+  %i.5.4 = phi i64 [ %i.2.1273, %B1628.preheader ], [ %.787, %B1656 ]
   %5 = add i64 %i.5.4, 2
-  %.757 = icmp slt i64 %5, %.289
-  br i1 %.757, label %B1530, label %B1572.loopexit
+  %.799 = icmp slt i64 %5, %.300
+  br i1 %.799, label %B1656, label %B1698.loopexit
 
-B1530:
-  %.745 = add i64 %i.5.4, 1
-  %.773 = load double, ptr %lsr.iv, align 8
-  %.777 = fcmp ugt double %.773, %.738
-  %scevgep67 = getelementptr i8, ptr %lsr.iv, i64 %2
-  br i1 %.777, label %B1572.loopexit, label %B1502
+B1656:
+  %.787 = add i64 %i.5.4, 1
+  %.815 = load double, ptr %lsr.iv, align 8
+  %.819 = fcmp ugt double %.815, %.780
+  %scevgep104 = getelementptr i8, ptr %lsr.iv, i64 %2
+  br i1 %.819, label %B1698.loopexit, label %B1628
 
-B1572.loopexit:
-  %.745.lcssa = phi i64 [ %7, %B1502 ], [ %.745, %B1530 ]
-  %.pre = add nsw i64 %.745.lcssa, 1
-  br label %B1572
+B1698.loopexit:
+  %.787.lcssa = phi i64 [ %6, %B1628 ], [ %.787, %B1656 ]
+  %.pre = add nsw i64 %.787.lcssa, 1
+  br label %B1698
 
-B1572:
-  %.791.pre-phi = phi i64 [ %.pre, %B1572.loopexit ], [ %.716, %B1460 ], [ %.716, %B1442 ]
-  %i.4.3 = phi i64 [ %.745.lcssa, %B1572.loopexit ], [ %i.2.1224, %B1460 ], [ %i.2.1224, %B1442 ]
-  %.793 = mul nsw i64 %.791.pre-phi, %arg.width
-  %.795 = getelementptr double, ptr %arg.rows, i64 %.793
-  %.796 = load double, ptr %.795, align 8
-  %.799 = mul nsw i64 %i.4.3, %arg.width
-  %.801 = getelementptr double, ptr %arg.rows, i64 %.799
-  %.802 = load double, ptr %.801, align 8
-  %.803 = fsub double %.796, %.802
-  %.823 = fcmp ogt double %.803, 0.000000e+00
-  br i1 %.823, label %B1670.endif.endif, label %B1738
+B1698:
+  %.833.pre-phi = phi i64 [ %.pre, %B1698.loopexit ], [ %.758, %B1586 ], [ %.758, %B1568 ]
+  %i.4.3 = phi i64 [ %.787.lcssa, %B1698.loopexit ], [ %i.2.1273, %B1586 ], [ %i.2.1273, %B1568 ]
+  %.835 = mul nsw i64 %.833.pre-phi, %arg.width
+  %.837 = getelementptr double, ptr %arg.rows, i64 %.835
+  %.838 = load double, ptr %.837, align 8
+  %.841 = mul nsw i64 %i.4.3, %arg.width
+  %.843 = getelementptr double, ptr %arg.rows, i64 %.841
+  %.844 = load double, ptr %.843, align 8
+  %.845 = fsub double %.838, %.844
+  %.865 = fcmp ogt double %.845, 0.000000e+00
+  br i1 %.865, label %B1796.endif.endif, label %B1864
 
-B1738:
-  %"$phi1738.2.2.3" = phi double [ 0.000000e+00, %B1572 ], [ %.13.i27, %B1670.endif.endif ]
-  %sunkaddr = shl i64 %.520217219, 3
-  %sunkaddr69 = getelementptr i8, ptr %.80, i64 %sunkaddr
-  %.911 = load double, ptr %sunkaddr69, align 8
-  %.914 = getelementptr double, ptr %.80, i64 %i.4.3
-  %.915 = load double, ptr %.914, align 8
-  %.916 = fsub double %.911, %.915
-  %.920 = getelementptr double, ptr %.80, i64 %.791.pre-phi
-  %.921 = load double, ptr %.920, align 8
-  %.926 = fsub double %.921, %.915
-  %.927 = fmul double %"$phi1738.2.2.3", %.926
-  %.928 = fsub double %.916, %.927
-  %.933 = fdiv double %.928, %.13.i
-  %sunkaddr71 = getelementptr i8, ptr %.84, i64 %sunkaddr
-  %.940 = load double, ptr %sunkaddr71, align 8
-  %.943 = getelementptr double, ptr %.84, i64 %i.4.3
-  %.944 = load double, ptr %.943, align 8
-  %.945 = fsub double %.940, %.944
-  %.949 = getelementptr double, ptr %.84, i64 %.791.pre-phi
-  %.950 = load double, ptr %.949, align 8
-  %.955 = fsub double %.950, %.944
-  %.956 = fmul double %"$phi1738.2.2.3", %.955
-  %.957 = fsub double %.945, %.956
-  %.962 = fdiv double %.957, %.13.i
-  %.964 = fadd double %.108, %.962
-  %.970 = load double, ptr %sunkaddr72, align 8
-  %.972 = fmul double %.933, %.970
-  %.975 = load double, ptr %sunkaddr73, align 8
-  %.977 = fmul double %.975, %.964
-  %.978 = fadd double %.972, %.977
-  store double %.978, ptr %.651, align 8
-  %.987 = fcmp ugt double %.978, 0.000000e+00
-  br i1 %.987, label %B1998.endif, label %B2094
+B1864:
+  %"$phi1864.2.2.3" = phi double [ 0.000000e+00, %B1698 ], [ %.13.i56, %B1796.endif.endif ]
+  %sunkaddr = shl i64 %.534266268, 3
+  %sunkaddr106 = getelementptr i8, ptr %.84, i64 %sunkaddr
+  %.953 = load double, ptr %sunkaddr106, align 8
+  %.956 = getelementptr double, ptr %.84, i64 %i.4.3
+  %.957 = load double, ptr %.956, align 8
+  %.958 = fsub double %.953, %.957
+  %.962 = getelementptr double, ptr %.84, i64 %.833.pre-phi
+  %.963 = load double, ptr %.962, align 8
+  %.968 = fsub double %.963, %.957
+  %.969 = fmul double %"$phi1864.2.2.3", %.968
+  %.970 = fsub double %.958, %.969
+  %.975 = fdiv double %.970, %.13.i
+  %sunkaddr108 = getelementptr i8, ptr %.88, i64 %sunkaddr
+  %.982 = load double, ptr %sunkaddr108, align 8
+  %.985 = getelementptr double, ptr %.88, i64 %i.4.3
+  %.986 = load double, ptr %.985, align 8
+  %.987 = fsub double %.982, %.986
+  %.991 = getelementptr double, ptr %.88, i64 %.833.pre-phi
+  %.992 = load double, ptr %.991, align 8
+  %.997 = fsub double %.992, %.986
+  %.998 = fmul double %"$phi1864.2.2.3", %.997
+  %.999 = fsub double %.987, %.998
+  %.1004 = fdiv double %.999, %.13.i
+  %.1006 = fadd double %.119, %.1004
+  %.1012 = load double, ptr %sunkaddr109, align 8
+  %.1014 = fmul double %.975, %.1012
+  %.1017 = load double, ptr %sunkaddr110, align 8
+  %.1019 = fmul double %.1017, %.1006
+  %.1020 = fadd double %.1014, %.1019
+  store double %.1020, ptr %.689, align 8
+  %.1029 = fcmp ugt double %.1020, 0.000000e+00
+  br i1 %.1029, label %B2124.endif, label %B2220
 
-B2094:
-  %i.3.2 = phi i64 [ %i.4.3, %B1738 ], [ %i.4.3, %B1998.endif ], [ %i.2.1224, %B874.endif ]
-  %6 = getelementptr double, ptr %.563, i64 %.35
-  %.1036 = getelementptr i8, ptr %6, i64 8
-  %.1037 = load double, ptr %.1036, align 8
-  %.1041 = load double, ptr %6, align 8
-  %.1045 = fmul double %.110, %.1041
-  %.1046 = fadd double %.1037, %.1045
-  %.1050 = load double, ptr %sunkaddr75, align 8
-  %.1051 = fadd double %.1050, %.1046
-  %.1056 = fcmp ogt double %.1051, 0.000000e+00
-  %above.2.1.not = xor i1 %above.2.1225, true
-  %brmerge = or i1 %.1056, %above.2.1.not
-  br i1 %brmerge, label %B2228, label %B2180
+B2220:
+  %i.3.2 = phi i64 [ %i.4.3, %B1864 ], [ %i.4.3, %B2124.endif ], [ %i.2.1273, %B986.endif ]
+  %.1077 = getelementptr double, ptr %.577, i64 %.35
+  %.1078 = load double, ptr %.1077, align 8
+  %.1082 = getelementptr i8, ptr %.1077, i64 8
+  %.1083 = load double, ptr %.1082, align 8
+  %.1095 = fmul double %.1078, %.1093
+  %.1099 = load double, ptr %sunkaddr112, align 8
+  %.1100 = fsub double %.1095, %.1099
+  %.1109 = fcmp olt double %.1078, 0.000000e+00
+  br i1 %.1109, label %B2304, label %B2444
 
-B2180:
-  %.1077 = fcmp olt double %.364, %.574
-  %.1090 = fcmp olt double %.574, %"$phi818.1.2.1"
-  %or.cond193 = select i1 %.1077, i1 %.1090, i1 false
-  br i1 %or.cond193, label %B2212, label %B2228
+B2304:
+  %.1113 = load double, ptr %sunkaddr114, align 8
+  %.1114 = fcmp olt double %.1113, 0.000000e+00
+  br i1 %.1114, label %B2328.endif.endif, label %B2444
 
-B2212:
-  %.1113 = fsub double 0.000000e+00, %.1051
-  %sunkaddr76 = shl i64 %.520217219, 3
-  %sunkaddr77 = getelementptr inbounds i8, ptr %.66, i64 %sunkaddr76
-  store double %.1113, ptr %sunkaddr77, align 8
-  br label %B2228
+B2444:
+  br i1 %.393, label %B2456, label %B2588
 
-B2228:
-  %above.3.2 = phi i1 [ true, %B2180 ], [ true, %B2212 ], [ %.1056, %B2094 ]
-  %.1161 = load i64, ptr %sunkaddr79, align 8
-  %.1163 = icmp eq i64 %.520217219, %.1161
-  %.1171 = zext i1 %.1163 to i8
-  %.1172 = call i32 @_ZN18biped_adrc_kernels10keep_worstB4v124B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr nonnull %.1167, ptr nonnull %excinfo.5, ptr nonnull %.651, i64 %.32, ptr %.1157, i8 %.1171)
-  switch i32 %.1172, label %common.ret [
-    i32 -2, label %B872.backedge
-    i32 0, label %B872.backedge
+B2456:
+  %.1202 = load double, ptr %sunkaddr116, align 8
+  %.1203 = fcmp ogt double %.1202, 0.000000e+00
+  br i1 %.1203, label %B2480.endif.endif.endif, label %B2588
+
+B2588:
+  %line.3.2 = phi double [ %.1159, %B2328.endif.endif ], [ %.1272, %B2480.endif.endif.endif ], [ %.1100, %B2456 ], [ %.1100, %B2444 ]
+  %riser.3.2 = phi double [ %.1175, %B2328.endif.endif ], [ %.1095, %B2480.endif.endif.endif ], [ %.1100, %B2456 ], [ %.1100, %B2444 ]
+  %.1292 = fcmp olt double %.384, %.588
+  %.1302 = fcmp olt double %.588, %"$phi930.1.2.1"
+  %or.cond215 = select i1 %.1292, i1 %.1302, i1 false
+  br i1 %or.cond215, label %B2620.endif.endif, label %B2710
+
+B2710:
+  %.1430 = load i64, ptr %sunkaddr118, align 8
+  %.1432 = icmp eq i64 %.534266268, %.1430
+  %.1440 = zext i1 %.1432 to i8
+  %.1441 = call i32 @_ZN18biped_adrc_kernels10keep_worstB4v124B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr nonnull %.1436, ptr nonnull %excinfo.10, ptr nonnull %.689, i64 %.32, ptr %.1426, i8 %.1440)
+  switch i32 %.1441, label %common.ret [
+    i32 -2, label %B984.backedge
+    i32 0, label %B984.backedge
   ], !prof !3
 
-B872.backedge:
-  %.514 = icmp sgt i64 %.513216220, 1
-  br i1 %.514, label %B874, label %B594.loopexit
+B984.backedge:
+  %.528 = icmp sgt i64 %.527265269, 1
+  br i1 %.528, label %B986, label %B628.loopexit
 
 common.ret:
-  %excinfo.sink = phi ptr [ %excinfo, %B2228 ], [ %retptr, %B0.endif ], [ %excinfo, %B874 ], [ %retptr, %B594.loopexit ]
-  %common.ret.op = phi i32 [ %.1172, %B2228 ], [ 0, %B0.endif ], [ %.677, %B874 ], [ 0, %B594.loopexit ]
+  %excinfo.sink = phi ptr [ %excinfo, %B2710 ], [ %retptr, %B0.endif ], [ %excinfo, %B986 ], [ %retptr, %B628.loopexit ]
+  %common.ret.op = phi i32 [ %.1441, %B2710 ], [ 0, %B0.endif ], [ %.719, %B986 ], [ 0, %B628.loopexit ]
   store ptr null, ptr %excinfo.sink, align 8
   ret i32 %common.ret.op
 
-B596.endif:
-  %pushed_z.3.0237 = phi double [ 0.000000e+00, %B596.lr.ph ], [ %pushed_z.2.1.lcssa, %B594.loopexit ]
-  %pushed_x.3.0236 = phi double [ 0.000000e+00, %B596.lr.ph ], [ %pushed_x.2.1.lcssa, %B594.loopexit ]
-  %before.3.0235 = phi ptr [ %arg.rows, %B596.lr.ph ], [ %before.2.1.lcssa, %B594.loopexit ]
-  %.245229233 = phi i64 [ 0, %B596.lr.ph ], [ %.252, %B594.loopexit ]
-  %.252 = add nuw nsw i64 %.245229233, 1
-  %.282 = getelementptr i64, ptr %arg.first, i64 %.245229233
-  %.283 = load i64, ptr %.282, align 8
-  %.287 = getelementptr i8, ptr %.282, i64 8
-  %.288 = load i64, ptr %.287, align 8
-  %.289 = add nsw i64 %.288, -1
-  %.295 = mul nsw i64 %.283, %arg.width
-  %.297 = getelementptr double, ptr %arg.rows, i64 %.295
-  %.298 = load double, ptr %.297, align 8
-  %.321 = mul nsw i64 %.289, %arg.width
-  %.323 = getelementptr double, ptr %arg.rows, i64 %.321
-  %.324 = load double, ptr %.323, align 8
-  %.326 = fsub double %.324, %.298
-  %.12.i = fcmp olt double %.326, %.106
-  %.13.i = select i1 %.12.i, double %.326, double %.106
-  %.362 = fmul double %.121, %.326
-  %.364 = fadd double %.123, %.362
-  %.373 = icmp slt i64 %.245229233, %arg.impacts
-  %.378 = fmul double %.376, %.326
-  %.382 = fsub double %.378, %.123
-  %"$phi818.1.2.1" = select i1 %.373, double %.382, double 0x7FF0000000000000
-  %.470 = sub i64 %.288, %.283
-  %.514218.not = icmp slt i64 %.470, 1
-  br i1 %.514218.not, label %B594.loopexit, label %B874.lr.ph
+B630.endif:
+  %pushed_z.3.0287 = phi double [ 0.000000e+00, %B630.lr.ph ], [ %pushed_z.2.1.lcssa, %B628.loopexit ]
+  %pushed_x.3.0286 = phi double [ 0.000000e+00, %B630.lr.ph ], [ %pushed_x.2.1.lcssa, %B628.loopexit ]
+  %before.3.0285 = phi ptr [ %arg.rows, %B630.lr.ph ], [ %before.2.1.lcssa, %B628.loopexit ]
+  %.256279283 = phi i64 [ 0, %B630.lr.ph ], [ %.263, %B628.loopexit ]
+  %.263 = add nuw nsw i64 %.256279283, 1
+  %.293 = getelementptr i64, ptr %arg.first, i64 %.256279283
+  %.294 = load i64, ptr %.293, align 8
+  %.298 = getelementptr i8, ptr %.293, i64 8
+  %.299 = load i64, ptr %.298, align 8
+  %.300 = add nsw i64 %.299, -1
+  %.306 = mul nsw i64 %.294, %arg.width
+  %.308 = getelementptr double, ptr %arg.rows, i64 %.306
+  %.309 = load double, ptr %.308, align 8
+  %.328 = mul nsw i64 %.300, %arg.width
+  %.343 = getelementptr double, ptr %arg.rows, i64 %.328
+  %.344 = load double, ptr %.343, align 8
+  %.346 = fsub double %.344, %.309
+  %.12.i = fcmp olt double %.346, %.117
+  %.13.i = select i1 %.12.i, double %.346, double %.117
+  %.382 = fmul double %.132, %.346
+  %.384 = fadd double %.134, %.382
+  %.393 = icmp slt i64 %.256279283, %arg.impacts
+  %.398 = fmul double %.396, %.346
+  %.402 = fsub double %.398, %.134
+  %"$phi930.1.2.1" = select i1 %.393, double %.402, double 0x7FF0000000000000
+  %.484 = sub i64 %.299, %.294
+  %.528267.not = icmp slt i64 %.484, 1
+  br i1 %.528267.not, label %B628.loopexit, label %B986.lr.ph
 
-B874.lr.ph:
-  %.705 = fsub double %.13.i, %.123
-  %.1157.idx = mul i64 %.245229233, 72
-  %.1157 = getelementptr i8, ptr %arg.worst, i64 %.1157.idx
-  %7 = add i64 %.288, -2
-  %8 = fcmp ogt double %.13.i, 1.000000e-09
-  %sunkaddr74 = shl i64 %.245229233, 3
-  %sunkaddr75 = getelementptr inbounds i8, ptr %.150, i64 %sunkaddr74
-  %sunkaddr79 = getelementptr i8, ptr %arg.first, i64 %sunkaddr74
-  br label %B874
+B986.lr.ph:
+  %.747 = fsub double %.13.i, %.134
+  %.1426.idx = mul i64 %.256279283, 80
+  %.1426 = getelementptr i8, ptr %arg.worst, i64 %.1426.idx
+  %6 = add i64 %.299, -2
+  %7 = fcmp ogt double %.13.i, 1.000000e-09
+  %sunkaddr111 = shl i64 %.256279283, 3
+  %sunkaddr112 = getelementptr inbounds i8, ptr %.161, i64 %sunkaddr111
+  %sunkaddr113 = shl i64 %.306, 3
+  %sunkaddr114 = getelementptr i8, ptr %invariant.gep, i64 %sunkaddr113
+  %sunkaddr115 = shl i64 %.328, 3
+  %sunkaddr116 = getelementptr i8, ptr %invariant.gep, i64 %sunkaddr115
+  %sunkaddr128 = getelementptr i8, ptr %sunkaddr116, i64 8
+  %sunkaddr125 = getelementptr i8, ptr %sunkaddr114, i64 8
+  %sunkaddr118 = getelementptr i8, ptr %arg.first, i64 %sunkaddr111
+  br label %B986
 
-B874.endif:
-  %.707 = fcmp oge double %.574, %.705
-  %or.cond = select i1 %8, i1 %.707, i1 false
-  br i1 %or.cond, label %B1442, label %B2094
+B986.endif:
+  %.749 = fcmp oge double %.588, %.747
+  %or.cond = select i1 %7, i1 %.749, i1 false
+  br i1 %or.cond, label %B1568, label %B2220
 
-B1670.endif.endif:
-  %.806 = fsub double %.569, %.13.i
-  %.815 = fsub double %.806, %.802
-  %.830 = fdiv double %.815, %.803
-  %.12.i24 = fcmp olt double %.830, 0.000000e+00
-  %.13.i25 = select i1 %.12.i24, double 0.000000e+00, double %.830
-  %.12.i26 = fcmp ogt double %.13.i25, 1.000000e+00
-  %.13.i27 = select i1 %.12.i26, double 1.000000e+00, double %.13.i25
-  br label %B1738
+B1796.endif.endif:
+  %.848 = fsub double %.583, %.13.i
+  %.857 = fsub double %.848, %.844
+  %.872 = fdiv double %.857, %.845
+  %.12.i53 = fcmp olt double %.872, 0.000000e+00
+  %.13.i54 = select i1 %.12.i53, double 0.000000e+00, double %.872
+  %.12.i55 = fcmp ogt double %.13.i54, 1.000000e+00
+  %.13.i56 = select i1 %.12.i55, double 1.000000e+00, double %.13.i54
+  br label %B1864
 
-B1998.endif:
-  %.996 = load double, ptr %sunkaddr80, align 8
-  %.998 = fmul double %.933, %.996
-  %.1003 = load double, ptr %sunkaddr81, align 8
-  %.1005 = fmul double %.964, %.1003
-  %.1008 = fadd double %.998, %.1005
-  %.1009 = tail call double @llvm.fabs.f64(double %.1008)
-  %.1017 = fdiv double %.1009, %.978
-  %sunkaddr83 = getelementptr inbounds i8, ptr %.62, i64 %sunkaddr
-  store double %.1017, ptr %sunkaddr83, align 8
-  br label %B2094
+B2124.endif:
+  %.1038 = load double, ptr %sunkaddr119, align 8
+  %.1040 = fmul double %.975, %.1038
+  %.1045 = load double, ptr %sunkaddr120, align 8
+  %.1047 = fmul double %.1006, %.1045
+  %.1050 = fadd double %.1040, %.1047
+  %.1051 = tail call double @llvm.fabs.f64(double %.1050)
+  %.1059 = fdiv double %.1051, %.1020
+  %sunkaddr122 = getelementptr inbounds i8, ptr %.62, i64 %sunkaddr
+  store double %.1059, ptr %sunkaddr122, align 8
+  br label %B2220
+
+B2328.endif.endif:
+  %.1122 = load double, ptr %sunkaddr125, align 8
+  %.1130 = fdiv double %.1078, %.1113
+  %.12.i57 = fcmp ogt double %.1130, 1.000000e+00
+  %.13.i58 = select i1 %.12.i57, double 1.000000e+00, double %.1130
+  %.1159 = fmul double %.13.i58, %.1122
+  %.1170 = fsub double %.1078, %.1113
+  %.1174 = fmul double %.121, %.1170
+  %.1175 = fsub double %.1122, %.1174
+  br label %B2588
+
+B2480.endif.endif.endif:
+  %.1207 = load double, ptr %sunkaddr128, align 8
+  %.1215 = fdiv double %.1078, %.1202
+  %.12.i59 = fcmp olt double %.1215, 0.000000e+00
+  %.13.i60 = select i1 %.12.i59, double 0.000000e+00, double %.1215
+  %.12.i61 = fcmp ogt double %.13.i60, 1.000000e+00
+  %.13.i62 = select i1 %.12.i61, double 1.000000e+00, double %.13.i60
+  %.1272 = fmul double %.13.i62, %.1207
+  br label %B2588
+
+B2620.endif.endif:
+  %.1318 = fsub double %line.3.2, %.1083
+  %.12.i51 = fcmp ogt double %.1318, 0.000000e+00
+  %.13.i52 = select i1 %.12.i51, double %.1318, double 0.000000e+00
+  %.1351 = fsub double %riser.3.2, %.1083
+  %.12.i63 = fcmp ogt double %.1351, 0.000000e+00
+  %.13.i64 = select i1 %.12.i63, double %.1351, double 0.000000e+00
+  %sunkaddr129 = shl i64 %.534266268, 3
+  %sunkaddr130 = getelementptr inbounds i8, ptr %.66, i64 %sunkaddr129
+  store double %.13.i52, ptr %sunkaddr130, align 8
+  %sunkaddr132 = getelementptr inbounds i8, ptr %.80, i64 %sunkaddr129
+  store double %.13.i64, ptr %sunkaddr132, align 8
+  br label %B2710
 }
 
 
@@ -708,165 +758,188 @@ B606.us.2:
 define linkonce_odr i32 @_ZN18biped_adrc_kernels10keep_worstB4v124B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE10float64_2ax10float64_2ab(ptr noalias writeonly initializes((0, 8)) %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.numbers, i64 %arg.count, ptr %arg.worst, i8 %arg.begins) local_unnamed_addr #2 {
 entry:
   %.10.not = icmp eq i8 %arg.begins, 0
-  %.152.us = load double, ptr %arg.numbers, align 8
-  br i1 %.10.not, label %B36.us.preheader, label %B206.5
+  %.17282.idx = mul i64 %arg.count, 72
+  %.173.us = load double, ptr %arg.numbers, align 8
+  br i1 %.10.not, label %B130.us, label %B249.6
 
-B36.us.preheader:
-  %.156.us = load double, ptr %arg.worst, align 8
-  %.168.us = fcmp olt double %.152.us, %.156.us
-  %.193.us = fcmp uno double %.152.us, 0.000000e+00
-  %or.cond.us = or i1 %.193.us, %.168.us
-  %.197.us = fcmp ord double %.156.us, 0.000000e+00
-  %or.cond64.us = and i1 %.197.us, %or.cond.us
-  br i1 %or.cond64.us, label %B144.us, label %B206.us
+B130.us:
+  %.177.us = load double, ptr %arg.worst, align 8
+  %.189.us = fcmp olt double %.173.us, %.177.us
+  %.214.us = fcmp uno double %.173.us, 0.000000e+00
+  %or.cond.us = or i1 %.214.us, %.189.us
+  %.218.us = fcmp ord double %.177.us, 0.000000e+00
+  %or.cond91.us = and i1 %.218.us, %or.cond.us
+  br i1 %or.cond91.us, label %B164.us, label %B130.us.1
 
-B144.us:
-  store double %.152.us, ptr %arg.worst, align 8
-  br label %B206.us
+B164.us:
+  store double %.173.us, ptr %arg.worst, align 8
+  br label %B130.us.1
 
-B206.us:
-  %.151.us.1 = getelementptr double, ptr %arg.numbers, i64 %arg.count
-  %.152.us.1 = load double, ptr %.151.us.1, align 8
-  %.155.us.1 = getelementptr i8, ptr %arg.worst, i64 8
-  %.156.us.1 = load double, ptr %.155.us.1, align 8
-  %.175.us.1 = fcmp ogt double %.152.us.1, %.156.us.1
-  %.193.us.1 = fcmp uno double %.152.us.1, 0.000000e+00
-  %or.cond.us.1 = or i1 %.193.us.1, %.175.us.1
-  %.197.us.1 = fcmp ord double %.156.us.1, 0.000000e+00
-  %or.cond64.us.1 = and i1 %.197.us.1, %or.cond.us.1
-  br i1 %or.cond64.us.1, label %B144.us.1, label %B206.us.1
+B130.us.1:
+  %.172.us.1 = getelementptr double, ptr %arg.numbers, i64 %arg.count
+  %.173.us.1 = load double, ptr %.172.us.1, align 8
+  %.176.us.1 = getelementptr i8, ptr %arg.worst, i64 8
+  %.177.us.1 = load double, ptr %.176.us.1, align 8
+  %.196.us.1 = fcmp ogt double %.173.us.1, %.177.us.1
+  %.214.us.1 = fcmp uno double %.173.us.1, 0.000000e+00
+  %or.cond.us.1 = or i1 %.214.us.1, %.196.us.1
+  %.218.us.1 = fcmp ord double %.177.us.1, 0.000000e+00
+  %or.cond91.us.1 = and i1 %.218.us.1, %or.cond.us.1
+  br i1 %or.cond91.us.1, label %B164.us.1, label %B130.us.2
 
-B144.us.1:
-  store double %.152.us.1, ptr %.155.us.1, align 8
-  br label %B206.us.1
+B164.us.1:
+  store double %.173.us.1, ptr %.176.us.1, align 8
+  br label %B130.us.2
 
-B206.us.1:
-  %.151.us.2.idx = shl i64 %arg.count, 4
-  %.151.us.2 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.2.idx
-  %.152.us.2 = load double, ptr %.151.us.2, align 8
-  %.155.us.2 = getelementptr i8, ptr %arg.worst, i64 16
-  %.156.us.2 = load double, ptr %.155.us.2, align 8
-  %.175.us.2 = fcmp ogt double %.152.us.2, %.156.us.2
-  %.193.us.2 = fcmp uno double %.152.us.2, 0.000000e+00
-  %or.cond.us.2 = or i1 %.193.us.2, %.175.us.2
-  %.197.us.2 = fcmp ord double %.156.us.2, 0.000000e+00
-  %or.cond64.us.2 = and i1 %.197.us.2, %or.cond.us.2
-  br i1 %or.cond64.us.2, label %B144.us.2, label %B206.us.2
+B130.us.2:
+  %.172.us.2.idx = shl i64 %arg.count, 4
+  %.172.us.2 = getelementptr i8, ptr %arg.numbers, i64 %.172.us.2.idx
+  %.173.us.2 = load double, ptr %.172.us.2, align 8
+  %.176.us.2 = getelementptr i8, ptr %arg.worst, i64 16
+  %.177.us.2 = load double, ptr %.176.us.2, align 8
+  %.196.us.2 = fcmp ogt double %.173.us.2, %.177.us.2
+  %.214.us.2 = fcmp uno double %.173.us.2, 0.000000e+00
+  %or.cond.us.2 = or i1 %.214.us.2, %.196.us.2
+  %.218.us.2 = fcmp ord double %.177.us.2, 0.000000e+00
+  %or.cond91.us.2 = and i1 %.218.us.2, %or.cond.us.2
+  br i1 %or.cond91.us.2, label %B164.us.2, label %B130.us.3
 
-B144.us.2:
-  store double %.152.us.2, ptr %.155.us.2, align 8
-  br label %B206.us.2
+B164.us.2:
+  store double %.173.us.2, ptr %.176.us.2, align 8
+  br label %B130.us.3
 
-B206.us.2:
-  %.151.us.3.idx = mul i64 %arg.count, 24
-  %.151.us.3 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.3.idx
-  %.152.us.3 = load double, ptr %.151.us.3, align 8
-  %.155.us.3 = getelementptr i8, ptr %arg.worst, i64 24
-  %.156.us.3 = load double, ptr %.155.us.3, align 8
-  %.175.us.3 = fcmp ogt double %.152.us.3, %.156.us.3
-  %.193.us.3 = fcmp uno double %.152.us.3, 0.000000e+00
-  %or.cond.us.3 = or i1 %.193.us.3, %.175.us.3
-  %.197.us.3 = fcmp ord double %.156.us.3, 0.000000e+00
-  %or.cond64.us.3 = and i1 %.197.us.3, %or.cond.us.3
-  br i1 %or.cond64.us.3, label %B166.us.3, label %B206.us.3
-
-B166.us.3:
-  store double %.152.us.3, ptr %.155.us.3, align 8
-  %.220.us.3.idx = mul i64 %arg.count, 48
-  %.220.us.3 = getelementptr i8, ptr %arg.numbers, i64 %.220.us.3.idx
-  %.221.us.3 = load double, ptr %.220.us.3, align 8
-  %.227.us.3 = getelementptr i8, ptr %arg.worst, i64 48
-  store double %.221.us.3, ptr %.227.us.3, align 8
-  br label %B206.us.3
+B130.us.3:
+  %.172.us.3.idx = mul i64 %arg.count, 24
+  %.172.us.3 = getelementptr i8, ptr %arg.numbers, i64 %.172.us.3.idx
+  %.173.us.3 = load double, ptr %.172.us.3, align 8
+  %.176.us.3 = getelementptr i8, ptr %arg.worst, i64 24
+  %.177.us.3 = load double, ptr %.176.us.3, align 8
+  %.196.us.3 = fcmp ogt double %.173.us.3, %.177.us.3
+  %.214.us.3 = fcmp uno double %.173.us.3, 0.000000e+00
+  %or.cond.us.3 = or i1 %.214.us.3, %.196.us.3
+  %.218.us.3 = fcmp ord double %.177.us.3, 0.000000e+00
+  %or.cond91.us.3 = and i1 %.218.us.3, %or.cond.us.3
+  br i1 %or.cond91.us.3, label %B206.us.3, label %B130.us.4
 
 B206.us.3:
-  %.151.us.4.idx = shl i64 %arg.count, 5
-  %.151.us.4 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.4.idx
-  %.152.us.4 = load double, ptr %.151.us.4, align 8
-  %.155.us.4 = getelementptr i8, ptr %arg.worst, i64 32
-  %.156.us.4 = load double, ptr %.155.us.4, align 8
-  %.175.us.4 = fcmp ogt double %.152.us.4, %.156.us.4
-  %.193.us.4 = fcmp uno double %.152.us.4, 0.000000e+00
-  %or.cond.us.4 = or i1 %.193.us.4, %.175.us.4
-  %.197.us.4 = fcmp ord double %.156.us.4, 0.000000e+00
-  %or.cond64.us.4 = and i1 %.197.us.4, %or.cond.us.4
-  br i1 %or.cond64.us.4, label %B166.us.4, label %B206.us.4
+  store double %.173.us.3, ptr %.176.us.3, align 8
+  %.256.us.3.idx = mul i64 %arg.count, 48
+  %.256.us.3 = getelementptr i8, ptr %arg.numbers, i64 %.256.us.3.idx
+  %.257.us.3 = load double, ptr %.256.us.3, align 8
+  %.263.us.3 = getelementptr i8, ptr %arg.worst, i64 48
+  store double %.257.us.3, ptr %.263.us.3, align 8
+  br label %B130.us.4
 
-B166.us.4:
-  store double %.152.us.4, ptr %.155.us.4, align 8
-  %.220.us.4.idx = mul i64 %arg.count, 56
-  %.220.us.4 = getelementptr i8, ptr %arg.numbers, i64 %.220.us.4.idx
-  %.221.us.4 = load double, ptr %.220.us.4, align 8
-  %.227.us.4 = getelementptr i8, ptr %arg.worst, i64 56
-  store double %.221.us.4, ptr %.227.us.4, align 8
-  br label %B206.us.4
+B130.us.4:
+  %.172.us.4.idx = shl i64 %arg.count, 5
+  %.172.us.4 = getelementptr i8, ptr %arg.numbers, i64 %.172.us.4.idx
+  %.173.us.4 = load double, ptr %.172.us.4, align 8
+  %.176.us.4 = getelementptr i8, ptr %arg.worst, i64 32
+  %.177.us.4 = load double, ptr %.176.us.4, align 8
+  %.196.us.4 = fcmp ogt double %.173.us.4, %.177.us.4
+  %.214.us.4 = fcmp uno double %.173.us.4, 0.000000e+00
+  %or.cond.us.4 = or i1 %.214.us.4, %.196.us.4
+  %.218.us.4 = fcmp ord double %.177.us.4, 0.000000e+00
+  %or.cond91.us.4 = and i1 %.218.us.4, %or.cond.us.4
+  br i1 %or.cond91.us.4, label %B206.us.4, label %B130.us.5
 
 B206.us.4:
-  %.151.us.5.idx = mul i64 %arg.count, 40
-  %.151.us.5 = getelementptr i8, ptr %arg.numbers, i64 %.151.us.5.idx
-  %.152.us.5 = load double, ptr %.151.us.5, align 8
-  %.155.us.5 = getelementptr i8, ptr %arg.worst, i64 40
-  %.156.us.5 = load double, ptr %.155.us.5, align 8
-  %.175.us.5 = fcmp ogt double %.152.us.5, %.156.us.5
-  %.193.us.5 = fcmp uno double %.152.us.5, 0.000000e+00
-  %or.cond.us.5 = or i1 %.193.us.5, %.175.us.5
-  %.197.us.5 = fcmp ord double %.156.us.5, 0.000000e+00
-  %or.cond64.us.5 = and i1 %.197.us.5, %or.cond.us.5
-  br i1 %or.cond64.us.5, label %B166.us.5, label %B208
+  store double %.173.us.4, ptr %.176.us.4, align 8
+  %.256.us.4.idx = mul i64 %arg.count, 56
+  %.256.us.4 = getelementptr i8, ptr %arg.numbers, i64 %.256.us.4.idx
+  %.257.us.4 = load double, ptr %.256.us.4, align 8
+  %.263.us.4 = getelementptr i8, ptr %arg.worst, i64 56
+  store double %.257.us.4, ptr %.263.us.4, align 8
+  br label %B130.us.5
 
-B166.us.5:
-  store double %.152.us.5, ptr %.155.us.5, align 8
-  br label %B208.sink.split
+B130.us.5:
+  %.172.us.5.idx = mul i64 %arg.count, 40
+  %.172.us.5 = getelementptr i8, ptr %arg.numbers, i64 %.172.us.5.idx
+  %.173.us.5 = load double, ptr %.172.us.5, align 8
+  %.176.us.5 = getelementptr i8, ptr %arg.worst, i64 40
+  %.177.us.5 = load double, ptr %.176.us.5, align 8
+  %.196.us.5 = fcmp ogt double %.173.us.5, %.177.us.5
+  %.214.us.5 = fcmp uno double %.173.us.5, 0.000000e+00
+  %or.cond.us.5 = or i1 %.214.us.5, %.196.us.5
+  %.218.us.5 = fcmp ord double %.177.us.5, 0.000000e+00
+  %or.cond91.us.5 = and i1 %.218.us.5, %or.cond.us.5
+  br i1 %or.cond91.us.5, label %B206.us.5, label %B130.us.6
 
-B206.5:
-  store double %.152.us, ptr %arg.worst, align 8
-  %.151.1.phi.trans.insert = getelementptr double, ptr %arg.numbers, i64 %arg.count
-  %.152.1.pre = load double, ptr %.151.1.phi.trans.insert, align 8
-  %.155.1 = getelementptr i8, ptr %arg.worst, i64 8
-  store double %.152.1.pre, ptr %.155.1, align 8
-  %.151.2.idx = shl i64 %arg.count, 4
-  %.151.2 = getelementptr i8, ptr %arg.numbers, i64 %.151.2.idx
-  %.152.2 = load double, ptr %.151.2, align 8
-  %.155.2 = getelementptr i8, ptr %arg.worst, i64 16
-  store double %.152.2, ptr %.155.2, align 8
-  %.151.3.idx = mul i64 %arg.count, 24
-  %.151.3 = getelementptr i8, ptr %arg.numbers, i64 %.151.3.idx
-  %.152.3 = load double, ptr %.151.3, align 8
-  %.155.3 = getelementptr i8, ptr %arg.worst, i64 24
-  store double %.152.3, ptr %.155.3, align 8
-  %.220.3.idx = mul i64 %arg.count, 48
-  %.220.3 = getelementptr i8, ptr %arg.numbers, i64 %.220.3.idx
-  %.221.3 = load double, ptr %.220.3, align 8
-  %.227.3 = getelementptr i8, ptr %arg.worst, i64 48
-  store double %.221.3, ptr %.227.3, align 8
-  %.151.4.idx = shl i64 %arg.count, 5
-  %.151.4 = getelementptr i8, ptr %arg.numbers, i64 %.151.4.idx
-  %.152.4 = load double, ptr %.151.4, align 8
-  %.155.4 = getelementptr i8, ptr %arg.worst, i64 32
-  store double %.152.4, ptr %.155.4, align 8
-  %.220.4.idx = mul i64 %arg.count, 56
-  %.220.4 = getelementptr i8, ptr %arg.numbers, i64 %.220.4.idx
-  %.221.4 = load double, ptr %.220.4, align 8
-  %.227.4 = getelementptr i8, ptr %arg.worst, i64 56
-  store double %.221.4, ptr %.227.4, align 8
-  %.151.5.idx = mul i64 %arg.count, 40
-  %.151.5 = getelementptr i8, ptr %arg.numbers, i64 %.151.5.idx
-  %.152.5 = load double, ptr %.151.5, align 8
-  %.155.5 = getelementptr i8, ptr %arg.worst, i64 40
-  store double %.152.5, ptr %.155.5, align 8
-  br label %B208.sink.split
+B206.us.5:
+  store double %.173.us.5, ptr %.176.us.5, align 8
+  %.256.us.5.idx = shl i64 %arg.count, 6
+  %.256.us.5 = getelementptr i8, ptr %arg.numbers, i64 %.256.us.5.idx
+  %.257.us.5 = load double, ptr %.256.us.5, align 8
+  %.263.us.5 = getelementptr i8, ptr %arg.worst, i64 64
+  store double %.257.us.5, ptr %.263.us.5, align 8
+  br label %B130.us.6
 
-B208.sink.split:
-  %.220.us.5.idx = shl i64 %arg.count, 6
-  %.220.us.5 = getelementptr i8, ptr %arg.numbers, i64 %.220.us.5.idx
-  %.221.us.5 = load double, ptr %.220.us.5, align 8
-  %.227.us.5 = getelementptr i8, ptr %arg.worst, i64 64
-  store double %.221.us.5, ptr %.227.us.5, align 8
-  br label %B208
+B130.us.6:
+  %sunkaddr8 = getelementptr i8, ptr %arg.numbers, i64 %.17282.idx
+  %.17383.us.6 = load double, ptr %sunkaddr8, align 8
+  %sunkaddr9 = getelementptr i8, ptr %arg.worst, i64 72
+  %.17785.us.6 = load double, ptr %sunkaddr9, align 8
+  %.196.us.6 = fcmp ogt double %.17383.us.6, %.17785.us.6
+  %.214.us.6 = fcmp uno double %.17383.us.6, 0.000000e+00
+  %or.cond.us.6 = or i1 %.214.us.6, %.196.us.6
+  %.218.us.6 = fcmp ord double %.17785.us.6, 0.000000e+00
+  %or.cond91.us.6 = and i1 %.218.us.6, %or.cond.us.6
+  br i1 %or.cond91.us.6, label %B248.sink.split, label %B248
 
-B208:
+B248.sink.split:
+  %.17383.us.6.sink = phi double [ %.17374100.6, %B249.6 ], [ %.17383.us.6, %B130.us.6 ]
+  %sunkaddr10 = getelementptr i8, ptr %arg.worst, i64 72
+  store double %.17383.us.6.sink, ptr %sunkaddr10, align 8
+  br label %B248
+
+B248:
   store ptr null, ptr %retptr, align 8
   ret i32 0
+
+B249.6:
+  store double %.173.us, ptr %arg.worst, align 8
+  %.172.1 = getelementptr double, ptr %arg.numbers, i64 %arg.count
+  %.176.1 = getelementptr i8, ptr %arg.worst, i64 8
+  %.17374.1 = load double, ptr %.172.1, align 8
+  store double %.17374.1, ptr %.176.1, align 8
+  %.172.2.idx = shl i64 %arg.count, 4
+  %.172.2 = getelementptr i8, ptr %arg.numbers, i64 %.172.2.idx
+  %.176.2 = getelementptr i8, ptr %arg.worst, i64 16
+  %.17374.2 = load double, ptr %.172.2, align 8
+  store double %.17374.2, ptr %.176.2, align 8
+  %.172.3.idx = mul i64 %arg.count, 24
+  %.172.3 = getelementptr i8, ptr %arg.numbers, i64 %.172.3.idx
+  %.176.3 = getelementptr i8, ptr %arg.worst, i64 24
+  %.17374.3 = load double, ptr %.172.3, align 8
+  store double %.17374.3, ptr %.176.3, align 8
+  %.256.3.idx = mul i64 %arg.count, 48
+  %.256.3 = getelementptr i8, ptr %arg.numbers, i64 %.256.3.idx
+  %.257.3 = load double, ptr %.256.3, align 8
+  %.263.3 = getelementptr i8, ptr %arg.worst, i64 48
+  store double %.257.3, ptr %.263.3, align 8
+  %.172.4.idx = shl i64 %arg.count, 5
+  %.172.4 = getelementptr i8, ptr %arg.numbers, i64 %.172.4.idx
+  %.176.4 = getelementptr i8, ptr %arg.worst, i64 32
+  %.17374.4 = load double, ptr %.172.4, align 8
+  store double %.17374.4, ptr %.176.4, align 8
+  %.256.4.idx = mul i64 %arg.count, 56
+  %.256.4 = getelementptr i8, ptr %arg.numbers, i64 %.256.4.idx
+  %.257.4 = load double, ptr %.256.4, align 8
+  %.263.4 = getelementptr i8, ptr %arg.worst, i64 56
+  store double %.257.4, ptr %.263.4, align 8
+  %.172.5.idx = mul i64 %arg.count, 40
+  %.172.5 = getelementptr i8, ptr %arg.numbers, i64 %.172.5.idx
+  %.176.5 = getelementptr i8, ptr %arg.worst, i64 40
+  %.17374.5 = load double, ptr %.172.5, align 8
+  store double %.17374.5, ptr %.176.5, align 8
+  %.256.5.idx = shl i64 %arg.count, 6
+  %.256.5 = getelementptr i8, ptr %arg.numbers, i64 %.256.5.idx
+  %.257.5 = load double, ptr %.256.5, align 8
+  %.263.5 = getelementptr i8, ptr %arg.worst, i64 64
+  store double %.257.5, ptr %.263.5, align 8
+  %sunkaddr11 = getelementptr i8, ptr %arg.numbers, i64 %.17282.idx
+  %.17374100.6 = load double, ptr %sunkaddr11, align 8
+  br label %B248.sink.split
 }
 
 

@@ -9,7 +9,8 @@ A single support is feasible if
   |F_T| <= mu F_N), wherever in the single support this window lies;
 - every torque is within the motors' limit, and every joint with a motor within the rate and the range that its
   URDF states; a rate or a range that it does not state is not judged;
-- the swing foot does not touch the ground, but in the first and last 3 % (`ENDS`) of the walking step's time;
+- the swing foot stays above the straight lines between footholds, but in the first and last 3 % (`ENDS`) of the
+  walking step's time;
 - the impulse of the impact lies in the friction cone too.
 
 The mean and not the force at an instant is judged: when a push begins or ends, the force leaves the cone for a
