@@ -138,10 +138,11 @@ def test_s_and_t_add_to_one_and_s_is_that_of_the_margins():
 
 
 def test_an_outer_loop_has_the_gang_of_the_controller_inside():
-    """The PI from step to step changes nothing within a step."""
-    alone, inside = (gang(name, hardware="rabbit") for name in ("ADRC", "stride PI"))
+    """The PI from step to step changes nothing within a step; with Table I the loop is too ill-conditioned."""
+    outer = {"name": "stride PI", "inner": "LESO"}
+    alone, inside = (gang(law, hardware="rabbit") for law in ("LESO", outer))
     for name in GANG_UNITS:
-        np.testing.assert_allclose(inside.responses[name], alone.responses[name], rtol=1e-5)
+        np.testing.assert_allclose(inside.responses[name], alone.responses[name], rtol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.rough_ground import CLIPPED, IMPULSE, WAYS, rough_ground
+from biped_adrc.analysis.rough_ground import CLIPPED, IMPULSE, WAYS, failing_step, rough_ground
 from biped_adrc.analysis.stride_map import Path, StrideMap, poses_on
 from biped_adrc.core.errors import InputError
 from biped_adrc.gait.constraint import continued
@@ -232,3 +232,23 @@ def test_the_text_has_the_numbers(found):
     assert "11.75 mm, impulse" in text
     assert "14.70 mm, stall" in text
     assert "1.65 % of zeta per mm" in text
+
+
+def test_the_wheel_on_random_slopes_fails_as_published():
+    """A rimless wheel of 8 spokes, each segment's slope from N(8 deg, 2 deg) (Byl, Tedrake, Int. J. Robotics
+    Research 28(8), 2009): e' = c (e - G cos(g + a)) + G cos(g - a), which fails below G, 4326.19 steps from the
+    cycle by Nystrom quadrature.
+    """
+    a, G, mu, sd = np.pi / 8.0, 2.0 * 9.8, np.radians(8.0), np.radians(2.0)
+    c, found = np.cos(2.0 * a) ** 2, []
+    for nodes in (2000, 4000):
+        g = np.linspace(mu - 7.0 * sd, mu + 7.0 * sd, nodes + 1)
+        p = np.exp(-0.5 * ((g - mu) / sd) ** 2)
+        highest = G * np.max(np.cos(g - a) - c * np.cos(g + a)) / (1.0 - c)  # no e rises above
+        e = np.linspace(G, highest, 500)
+        after = c * (e - G * np.cos(g + a)[:, np.newaxis]) + G * np.cos(g - a)[:, np.newaxis]
+        N = failing_step(e, after, after >= G, p / np.sum(p))
+        cycle = G * (np.cos(mu - a) - c * np.cos(mu + a)) / (1.0 - c)
+        found.append(np.interp(cycle, e, N))
+    assert found[1] == pytest.approx(4326.19, rel=5e-4)
+    assert abs(found[1] - 4326.19) < abs(found[0] - 4326.19)

@@ -24,6 +24,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from biped_adrc.analysis.stride_map import FAR, HIGHEST, SIDE, StrideMap
@@ -160,17 +161,8 @@ class RoughGround(Shown):
         low, high = self._walked(h, but)
         y = np.linspace(max(np.min(low), 0.0), np.max(m.steady), n)  # no y rises above all y*
         walked = (y > low[:, np.newaxis]) & (y < high[:, np.newaxis])
-        # y+ lies between two values of y, and counts for them by its distances. Below all of them the next
-        # step fails
         a, b = (CubicSpline(m.heights, x)(h) for x in (m.delta2, -m.delta2 * m.V_2 - m.V_1))
-        place = (np.outer(a, y) + b[:, np.newaxis] - y[0]) / (y[1] - y[0])
-        k, T = np.floor(place), np.zeros(n * n)
-        for to, weight in ((k, 1.0 - place + k), (k + 1.0, place - k)):
-            counts = walked & (to >= 0) & (to < n)
-            cells = (n * np.arange(n) + to)[counts].astype(int)
-            T += np.bincount(cells, weight[counts] / n, n * n)
-        # N = 1 + T N for each y
-        N = np.linalg.solve(np.eye(n) - T.reshape(n, n), np.ones(n))
+        N = failing_step(y, np.outer(a, y) + b[:, np.newaxis], walked, np.full(len(h), 1.0 / n))
         return float(np.interp(m.steady[m.level], y, N))
 
     def _walked(self, h: Array, but: Collection[str]) -> tuple[Array, Array]:
@@ -204,6 +196,22 @@ class RoughGround(Shown):
             ("a step fails", f"after {self.mean_steps(1.3 * H):.3g} in the mean, at 1.3 H"),
         ]
         return "\n".join(columns(rows))
+
+
+def failing_step(y: Array, after: Array, walked: NDArray[np.bool_], p: Array) -> Array:
+    """Mean number N (n,) of the step that fails, from each value of y (n,): N = 1 + T N, T of the next y.
+
+    y: evenly spaced. after (m, n): y+ over each of m heights, of the probabilities p (m,). walked (m, n):
+    whether that step is. y+ lies between two values, and counts for them by its distances; below all of them
+    the next step fails.
+    """
+    n, place = len(y), (after - y[0]) / (y[1] - y[0])
+    k, T = np.floor(place), np.zeros(len(y) ** 2)
+    for to, weight in ((k, 1.0 - place + k), (k + 1.0, place - k)):
+        counts = walked & (to >= 0) & (to < n)
+        cells = (n * np.arange(n) + to)[counts].astype(int)
+        T += np.bincount(cells, (weight * p[:, np.newaxis])[counts], n * n)
+    return np.asarray(np.linalg.solve(np.eye(n) - T.reshape(n, n), np.ones(n)), float)
 
 
 def _first_zero(H: Array, margin: Array) -> float:
