@@ -204,6 +204,11 @@ def _say_rough(biped: ba.Biped, gait: ba.Gait) -> None:
     try:
         law = ba.ReferenceReset(ba.NPDController(continued(gait.constraint)))
         console.say(ba.rough_ground(ba.Walker(biped, law), gait).text())
+        for share in (-0.2, 0.2):  # of a trunk that the controller's model does not know
+            plant = ba.ModelErrors(mass={biped.description.trunk: share}).apply(biped)
+            walker = ba.Walker(plant, law, model=biped)
+            reach = ba.rough_ground(walker, gait, forces=()).reach()
+            console.say(f"H at {100.0 * share:+.0f} % of the trunk's mass  {reach}")
     except InputError as error:
         console.say(f"none: {error}")
 
