@@ -76,7 +76,7 @@ def test_other_limits_are_those_of_a_new_estimate(biped, npd):
 def test_in_continuous_time_it_is_that_of_a_fast_clock(biped, npd):
     """A walk without a table is judged by its signals. 2 %: of the clock of 1 kHz."""
     of = [replace(npd.walker, timing=timing) for timing in (CLOCK, ba.ContinuousTime())]
-    clock, exact = (rough_estimate(x, npd.gait, highest=0.012, grid=(9, 5)) for x in of)
+    clock, exact = (rough_estimate(x, npd.gait, highest=0.012, grid=(9, 9)) for x in of)
     assert exact.reach().height == pytest.approx(clock.reach().height, rel=0.02)
 
 
@@ -93,7 +93,7 @@ def test_what_it_cannot_estimate_is_refused(biped, npd):
     weak = replace(walker, torque_limit=1.0)
     for text, call in {
         "on level ground": lambda: rough_estimate(weak, gait),
-        "the grid has": lambda: rough_estimate(walker, gait, grid=(25, 40)),
+        "the grid is": lambda: rough_estimate(walker, gait, grid=(25, 40)),
         "what is to walk": lambda: rough_estimate(walker.controller, gait),
         "sideways": lambda: npd.reach("sideways"),
     }.items():

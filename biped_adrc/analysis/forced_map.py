@@ -38,6 +38,7 @@ from biped_adrc.analysis.return_map import (
     sorted_eigenvalues,
 )
 from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.timing import SampledTime
@@ -178,6 +179,9 @@ def forced_map(
     """
     from scipy.optimize import brentq  # SciPy's optimisers take half a second to load
 
+    check_part(P, "the map", ReturnMap)
+    check_part(orbit, "the orbit", PeriodicOrbit)
+    check_part(constraint, "the constraint of the gait", VirtualConstraint)
     timing, x0, none = P.walker.timing, orbit.x_minus[np.newaxis], np.zeros(3)
     if P.walker.sensors or (isinstance(timing, SampledTime) and not timing.restart):
         raise InputError(

@@ -18,6 +18,7 @@ the grid, margins are linear. Noise is that of the walker's seed: of several see
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from types import NoneType
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +32,7 @@ from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.stride_map import FAR
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk, Case, simulate_many
@@ -43,6 +44,8 @@ from biped_adrc.model.robots.limits import ROUND_OFF, KnownLimits, Limits
 
 STEADY_RATES = (0.1, 1.9)
 """Least and largest root of y of the grid, as shares of that on level ground [1], which is in the middle."""
+LEAST = 9
+"""Least number of heights, and of y: with fewer H is off by more than a tenth."""
 GRID_END = "grid"
 """Name of what stops H where the grid of y or h ends."""
 LIMITS = ("stall", *AT_NODES, IMPULSE)
@@ -164,6 +167,9 @@ class RoughEstimate(Shown):
         The worst sequences are stairs to the least and to the largest y* with a last step up or down, and steps
         up and down by turns.
         """
+        check_positive(share, f"the share of H is {share!r}")
+        for name, count in {"walks": walks, "steps": steps, "seed": seed}.items():
+            check_whole(count, f"{name} is {count!r}", int(name == "steps"))
         H = share * self.reach().height
         h = np.linspace(-H, H, 201)
         y = np.interp(h, self.heights, self.steady)
@@ -262,12 +268,18 @@ def rough_estimate(
     """
     check_part(walker, "what is to walk", Walker)
     check_part(gait, "the gait of the walk", Gait)
-    if not (highest > 0.0 and min(grid) > 3 and grid[0] % 2 and grid[1] % 2):
-        raise InputError(
-            f"the grid has {grid} values up to {highest:g} m, expected odd numbers from 5 on of y and of "
-            "heights, and a height above 0"
+    check_part(limits, "limits", Limits, NoneType)
+    check_positive(highest, f"the largest height is {highest!r} m")
+    for count in grid if isinstance(grid, tuple) and len(grid) == 2 else (0,):
+        check_whole(
+            count, f"the grid is {grid!r}, two odd numbers, of y and of heights; one of them", LEAST
         )
-    walker = replace(walker, slope=gait.slope if walker.slope is None else walker.slope)
+    if not (grid[0] % 2 and grid[1] % 2):
+        raise InputError(f"the grid is {grid}, expected two odd numbers, of y and of heights")
+    slope = gait.slope if walker.slope is None else walker.slope
+    if slope != 0.0:
+        raise InputError(f"the ground has a slope of {slope:g} rad, expected 0")
+    walker = replace(walker, slope=slope)
     k, none = (limits or Limits()).of(walker.plant.description), np.zeros(0)
     heights = highest * np.linspace(-1.0, 1.0, grid[1])
     made = RoughEstimate(walker, gait, method, k, heights, none, none, none)

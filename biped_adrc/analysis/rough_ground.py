@@ -21,6 +21,7 @@ itself, so H without some of them, such as torques that clip while the robot wal
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from types import NoneType
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +32,7 @@ from biped_adrc.analysis.stride_map import FAR, HIGHEST, SIDE, StrideMap
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_constraint
 from biped_adrc.control.reference_reset import ReferenceReset
-from biped_adrc.core.checks import check_part
+from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array
@@ -193,8 +194,11 @@ class RoughGround(Shown):
             *((f"H at {F:+g} N on the hip", str(reach)) for F, reach in self.held.items()),
             ("y at H", f"{low:.3f} to {high:.3f} of y on level ground"),
             ("gain", f"{0.1 * self.gain:.2f} % of zeta per mm"),
-            ("a step fails", f"after {self.mean_steps(1.3 * H):.3g} in the mean, at 1.3 H"),
         ]
+        if 0.0 < 1.3 * H <= HIGHEST * robot_of(self.plant).leg:
+            rows += [
+                ("a step fails", f"after {self.mean_steps(1.3 * H):.3g} in the mean, at 1.3 H")
+            ]
         return "\n".join(columns(rows))
 
 
@@ -231,7 +235,7 @@ def rough_ground(
     forces: Collection[float] = (-2.0, 2.0),
 ) -> RoughGround:
     """How rough a ground a walker bears on a gait, with `ReferenceReset` and a perfect inner loop in continuous
-    time.
+    time. A step may last as long as it takes: near H longer than the walker's `max_step_time`.
 
     walker: its controller is ReferenceReset, its ground is level but for steps; what disturbs it does not
     count, and the robot is the plant, whatever the controller's model. gait: whose curve it tracks. limits:
@@ -243,8 +247,14 @@ def rough_ground(
     'friction'
     """
     h, share = _curve(walker, gait)
+    check_part(limits, "limits", Limits, NoneType)
+    held = numbers(forces, "the forces on the hip")
+    if held.ndim != 1 or not np.all(np.isfinite(held)):
+        raise InputError(
+            f"the forces on the hip are {forces!r}, expected a row of finite numbers [N]"
+        )
     plant, k = walker.plant, (limits or Limits()).of(walker.plant.description)
-    maps = {F: StrideMap.of(plant, h, share, F) for F in (0.0, *forces)}
+    maps = {F: StrideMap.of(plant, h, share, F) for F in (0.0, *held.tolist())}
     if not len(maps[0.0].heights):
         raise InputError(
             f"the foot does not land on level ground past the share {share:g} of the step, where the reset "
@@ -256,8 +266,7 @@ def rough_ground(
             f"gait '{gait.name}' does not walk level ground, where the limits {broken} are broken; expected a "
             "stable gait that keeps them"
         )
-    held = {F: replace(result, map=maps[F]).reach() for F in forces}
-    return replace(result, held=held)
+    return replace(result, held={F: replace(result, map=maps[F]).reach() for F in held.tolist()})
 
 
 def _curve(walker: Walker, gait: Gait) -> tuple[VirtualConstraint, float]:
