@@ -47,7 +47,7 @@ CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "g
 """Arguments of constructors that come from elsewhere in a scenario."""
 GAINS = ("K_p", "K_d")
 """Values of a controller's record that change its gains."""
-ELSEWHERE = {"reset": "observer.reset", "period": "hardware.period", "like": ""}
+WRITE_ELSEWHERE = {"reset": "observer.reset", "period": "hardware.period", "like": ""}
 """Arguments of constructors that a controller's own record does not set, and what to write instead."""
 OF_POLES = ("poles", "bandwidth", "order")
 """Values of the observer's record that say where its poles are."""
@@ -98,15 +98,15 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
     # wrapper takes; `unknown` makes the sentence, with the nearest of the names that it could have been
     for at in c.dotted():
         head = at.partition(".")[0]
-        if at in ELSEWHERE and at in accepted:
-            where = ELSEWHERE[at] or "K_p, K_d and K_i"
+        if at in WRITE_ELSEWHERE and at in accepted:
+            where = WRITE_ELSEWHERE[at] or "K_p, K_d and K_i"
             raise Misfit(f"{place}.{at}", f"is not set here; write {where}")
         if outer and head in _WRAPPERS:
             raise Misfit(f"{place}.{at}", f"{what} is an outer loop; write {place}.inner.{at}")
         # _AROUND: values that wrappers take; CONTEXT: arguments that the record does not have
         if head not in _AROUND and at not in used:
             others = [*accepted, *(GAINS if "gains" in accepted else ())]
-            others = [x for x in others if x not in (*CONTEXT, *ELSEWHERE)]
+            others = [x for x in others if x not in (*CONTEXT, *WRITE_ELSEWHERE)]
             whose = f"'{c.name}'"
             if head == "observer":  # an observer has values of its own
                 others = [x for x in used if x.startswith("observer.") and x[9:] not in accepted]
