@@ -128,7 +128,7 @@ def test_a_held_force_and_a_wrong_mass(biped, gaits, found, change):
     tracking error is no longer 0, and H differs by 4 % for the force and 2 % for the mass."""
     gait, walker = gaits["v0.6"], walker_on(gaits["v0.6"], biped)
     if change == "force":
-        reach = found["v0.6"].held[-2.0]
+        reach = found["v0.6"].by_force[-2.0]
         walker = replace(walker, disturbance=ba.HipForce(biped, (-2.0, 0.0)))
     else:
         light = ba.ModelErrors(mass={"torso": -0.2}).apply(biped)

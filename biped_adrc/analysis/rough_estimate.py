@@ -91,8 +91,8 @@ class RoughEstimate(Shown):
         """Fixed points y* (M,), beyond the grid on a line; infinite for none."""
         result = np.full(len(self.heights), np.inf)
         for j, following in enumerate(self.following.T):
-            made = np.isfinite(following)
-            y, gain = self.y[made], (following - self.y)[made]
+            finite = np.isfinite(following)
+            y, gain = self.y[finite], (following - self.y)[finite]
             if len(y) > 1:
                 k = min(max(int(np.sum(gain > 0.0)), 1), len(y) - 1)
                 if (falls := gain[k - 1] - gain[k]) > 0.0:
@@ -272,7 +272,7 @@ def rough_estimate(
     check_positive(highest, f"the largest height is {highest!r} m")
     for count in grid if isinstance(grid, tuple) and len(grid) == 2 else (0,):
         check_whole(
-            count, f"the grid is {grid!r}, two odd numbers, of y and of heights; one of them", LEAST
+            count, f"the grid is {grid!r}, of two odd numbers, of y and of heights; each", LEAST
         )
     if not (grid[0] % 2 and grid[1] % 2):
         raise InputError(f"the grid is {grid}, expected two odd numbers, of y and of heights")
@@ -282,12 +282,12 @@ def rough_estimate(
     walker = replace(walker, slope=slope)
     k, none = (limits or Limits()).of(walker.plant.description), np.zeros(0)
     heights = highest * np.linspace(-1.0, 1.0, grid[1])
-    made = RoughEstimate(walker, gait, method, k, heights, none, none, none)
+    empty = RoughEstimate(walker, gait, method, k, heights, none, none, none)
 
     def steps(cases: Iterable[Case]) -> Array:
         return np.array([_step(*walked, gait, k.window) for walked in _walks(cases)])
 
-    level = steps([made.case(np.zeros(2))])[0]
+    level = steps([empty.case(np.zeros(2))])[0]
     if np.any(np.isnan(level[:2])):
         raise InputError(
             f"the walker does not walk gait '{gait.name}' on level ground, expected one that does"
@@ -295,11 +295,11 @@ def rough_estimate(
     # y is linear in the square of the rates just after impact
     y, start = level[0] * np.linspace(*STEADY_RATES, grid[0]) ** 2, gait.start(walker.nominal)
     scale = np.sqrt(1.0 + (y - level[0]) / (0.5 * walker.plant.angular_momentum(*start) ** 2))
-    cases = (made.case(np.array([h, 0.0]), x) for x in scale for h in heights)
+    cases = (empty.case(np.array([h, 0.0]), x) for x in scale for h in heights)
     found = np.moveaxis(np.reshape(steps(cases), (*grid, -1)), -1, 0)
     reached = found[0][:, grid[1] // 2]
     y = np.where(np.isnan(reached), y, reached)
-    result = replace(made, y=y, following=found[1], numbers=found[2:])
+    result = replace(empty, y=y, following=found[1], numbers=found[2:])
     # twice the distance of two heights, as H may lie anywhere between the first two of them
     finer = max(4.0 * (H := result.reach().height), 4.0 * highest / (grid[1] - 1))
     if H > _FINEST and finer < 0.9 * highest:

@@ -78,7 +78,7 @@ class RoughGround(Shown):
     """Limits of ground and motors."""
     gain: float
     """Largest relative amplitude of zeta = sigma-^2 / 2 before impacts per amplitude of h [1/m]."""
-    held: Mapping[float, Reach]
+    by_force: Mapping[float, Reach]
     """H both ways while a horizontal force F is held on the hip: F [N] -> H."""
 
     @cached_property
@@ -139,7 +139,7 @@ class RoughGround(Shown):
         return float(np.min(y)), float(np.max(y))
 
     def at_friction(self, friction: float) -> "RoughGround":
-        """The same on ground of another friction mu [1]; `held` stays that of the first ground."""
+        """The same on ground of another friction mu [1]; `by_force` stays that of the first ground."""
         return replace(self, limits=self.limits._replace(friction=friction))
 
     def mean_steps(self, H: float, but: Collection[str] = ()) -> float:
@@ -191,7 +191,7 @@ class RoughGround(Shown):
                 for way in WAYS
             ),
             ("H at mu, mm", ", ".join(by_friction)),
-            *((f"H at {F:+g} N on the hip", str(reach)) for F, reach in self.held.items()),
+            *((f"H at {F:+g} N on the hip", str(reach)) for F, reach in self.by_force.items()),
             ("y at H", f"{low:.3f} to {high:.3f} of y on level ground"),
             ("gain", f"{0.1 * self.gain:.2f} % of zeta per mm"),
         ]
@@ -239,8 +239,8 @@ def rough_ground(
 
     walker: its controller is ReferenceReset, its ground is level but for steps; what disturbs it does not
     count, and the robot is the plant, whatever the controller's model. gait: whose curve it tracks. limits:
-    None for those of the robot's record. forces [N]: those of `held`. Raises InputError where the map does not
-    hold, or level ground is not walked.
+    None for those of the robot's record. forces [N]: those of `by_force`. Raises InputError where the map does
+    not hold, or level ground is not walked.
 
     >>> walker = ba.Walker(biped, ba.ReferenceReset(ba.NPDController(gait.constraint)))
     >>> ba.rough_ground(walker, gait).reach().cause
@@ -248,13 +248,13 @@ def rough_ground(
     """
     h, share = _curve(walker, gait)
     check_part(limits, "limits", Limits, NoneType)
-    held = numbers(forces, "the forces on the hip")
-    if held.ndim != 1 or not np.all(np.isfinite(held)):
+    row = numbers(forces, "the forces on the hip")
+    if row.ndim != 1 or not np.all(np.isfinite(row)):
         raise InputError(
             f"the forces on the hip are {forces!r}, expected a row of finite numbers [N]"
         )
     plant, k = walker.plant, (limits or Limits()).of(walker.plant.description)
-    maps = {F: StrideMap.of(plant, h, share, F) for F in (0.0, *held.tolist())}
+    maps = {F: StrideMap.of(plant, h, share, F) for F in (0.0, *row.tolist())}
     if not len(maps[0.0].heights):
         raise InputError(
             f"the foot does not land on level ground past the share {share:g} of the step, where the reset "
@@ -266,7 +266,8 @@ def rough_ground(
             f"gait '{gait.name}' does not walk level ground, where the limits {broken} are broken; expected a "
             "stable gait that keeps them"
         )
-    return replace(result, held={F: replace(result, map=maps[F]).reach() for F in held.tolist()})
+    by_force = {F: replace(result, map=maps[F]).reach() for F in row.tolist()}
+    return replace(result, by_force=by_force)
 
 
 def _curve(walker: Walker, gait: Gait) -> tuple[VirtualConstraint, float]:

@@ -217,18 +217,17 @@ class NPIDController(Controller):
 
     @derived
     def before(self) -> tuple[Array, Array]:
-        """M (3, 3) and c (3,): M (Z - c e) before a tick with the error e is the filter's Z after it."""
-        if (
-            self.period is None or self.like
-        ):  # an observer stays where it starts, as it has no innovation
+        """M (3, 3) and c (3,): from M (Z - c e) a tick with the error e leads to the state Z of the filter."""
+        # an observer stays where it starts, as it has no innovation
+        if self.period is None or self.like:
             return np.eye(3), np.zeros(3)
         return np.linalg.inv(self.filter.A), self.filter.b
 
-    def asked(self, s: FilterState) -> Array:
-        """v (p,) [rad/s^2]."""
+    def command(self, s: FilterState) -> Array:
+        """The acceleration v (p,) [rad/s^2] of e that the law asks for."""
         return -self.gains.K_d * s.de - self.gains.K_p * s.e - self.K_i * s.total
 
-    def known(self, r: ReferencePoint, m: Measurement) -> tuple[Array, Array, Array]:
+    def model(self, r: ReferencePoint, m: Measurement) -> tuple[Array, Array, Array]:
         """M (p, p), and of e'' = M (kappa u + xi) - c the parts xi and c (p,) [rad/s^2] that the law knows."""
         c = r.drift + r.H[:, len(r.q_d) :] @ m.terms.a_N
         none = np.zeros(len(r.q_d))
@@ -236,8 +235,8 @@ class NPIDController(Controller):
 
     def output(self, s: FilterState, m: Measurement) -> Array:
         # q_d'' contains q'', and so the torque: M a = v + c is solved for a = q_b''
-        M, xi, c = self.known(self.reference(m.t, m.q, m.v), m)
-        a = solve(M, self.asked(s) + c, "I - H_b - H_N A_N, by which the reference is tracked,")
+        M, xi, c = self.model(self.reference(m.t, m.q, m.v), m)
+        a = solve(M, self.command(s) + c, "I - H_b - H_N A_N, by which the reference is tracked,")
         return m.terms.kappa_inverse @ (a - xi)
 
     def errors(self, m: Measurement) -> tuple[Array, Array, Array]:
@@ -248,7 +247,7 @@ class NPIDController(Controller):
             d = output_matrix(r, m.terms) @ m.terms.xi - r.drift - r.H[:, len(d) :] @ m.terms.a_N
         return m.q_b - r.q_d, m.v_b - r.dq_d, d
 
-    def placed(self, x: Array, e: Array) -> FilterState:
+    def filter_at(self, x: Array, e: Array) -> FilterState:
         """The filter before a tick with the error e = x_1 (p,), after which its estimates are x (3, p)."""
         M, c = self.before
         return FilterState(*(M @ (self.T @ x - np.outer(c, e))))
@@ -256,12 +255,12 @@ class NPIDController(Controller):
     def initial_state(self, m: Measurement) -> FilterState:
         """The filter at the measured error and its rate, with the model's value of d."""
         e, de, d = self.errors(m)
-        return self.placed(_COORDINATES.initial_state(e, de, d), e)
+        return self.filter_at(_COORDINATES.initial_state(e, de, d), e)
 
     def flow(self, s: FilterState, m: Measurement, u: Array) -> FilterState:
         """Z' under the torque u (p,) that acts."""
         (A, b, _, _), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
-        return FilterState(*(A @ np.array(s) + np.outer(b, e) + self.missing(s, m, u)))
+        return FilterState(*(A @ np.array(s) + np.outer(b, e) + self.shortfall(s, m, u)))
 
     def correct(self, s: FilterState, m: Measurement) -> FilterState:
         """Z with the error of this tick."""
@@ -270,12 +269,12 @@ class NPIDController(Controller):
 
     def predict(self, s: FilterState, m: Measurement, u: Array) -> FilterState:
         """Z before the next tick, after the torque u (p,) that acts until then."""
-        return FilterState(*(self.filter.F @ np.array(s) + self.missing(s, m, u)))
+        return FilterState(*(self.filter.F @ np.array(s) + self.shortfall(s, m, u)))
 
-    def missing(self, s: FilterState, m: Measurement, u: Array) -> Array:
+    def shortfall(self, s: FilterState, m: Measurement, u: Array) -> Array:
         """w (v_u - v) (3, p), by how much the torque u (p,) that acts is not the one that the law asks for."""
-        M, xi, c = self.known(self.reference(m.t, m.q, m.v), m)
-        return np.outer(self.filter.w, M @ (m.terms.kappa @ u + xi) - c - self.asked(s))
+        M, xi, c = self.model(self.reference(m.t, m.q, m.v), m)
+        return np.outer(self.filter.w, M @ (m.terms.kappa @ u + xi) - c - self.command(s))
 
     def jump(self, s: FilterState, after: Measurement, swap: Indices) -> FilterState:
         """The filter after impact, by the policy `reset`; swap (p,): as the legs exchange their names, joint i
@@ -287,7 +286,7 @@ class NPIDController(Controller):
         x = _COORDINATES.reset(self.T_inverse @ np.array(s), self.reset, swap, e, de, d)
         if self.reset is ResetPolicy.RELABEL:  # of the measurement nothing is taken
             return FilterState(*(self.T @ x))
-        return self.placed(x, e)
+        return self.filter_at(x, e)
 
     def sampled(self, period: float) -> NPIDController:
         return replace(self, period=period)

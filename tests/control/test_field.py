@@ -267,10 +267,10 @@ def test_the_integral_of_a_pid_follows_the_torque_that_acts(biped, gait):
     law = NPIDController(gait.constraint)
     m = Walker(biped, law).measure(0.0, *gait.start(biped), Mode())
     s, none, T_t = FilterState(*np.zeros((3, 4))), np.zeros(4), law.tracking_time
-    first, tick = law.missing(s, m, none)[2], law.sampled(1e-4)
+    first, tick = law.shortfall(s, m, none)[2], law.sampled(1e-4)
     for _ in range(round(3.0 * T_t / 1e-4)):
         s = tick.predict(s, m, none)
-    left = law.missing(s, m, none)[2] / first
+    left = law.shortfall(s, m, none)[2] / first
     assert left == pytest.approx(np.full(4, np.exp(-3.0)), rel=0.01)
 
 
