@@ -9,7 +9,7 @@ A family gives a gait for every speed and step length within a range. It is made
 
     library    one gait for each pair of speed and step length, by `optimise`, with limits that leave a reserve
     curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
-    steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 3
+    steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 4
 
     v, L           speed [m/s] and step length [m]; a member of the family is the gait of one pair (v, L)
     Theta          phase of a gait, Theta = c q [rad]; Theta+ where a step begins, Theta- where it ends
@@ -25,6 +25,7 @@ share DECISION in Theta (`control.footstep`). Integrals over Theta take the plac
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -32,17 +33,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.certificate import IMPULSE, Certificate, certificates
+from biped_adrc.analysis.rough_ground import RoughGround, rough_ground
 from biped_adrc.analysis.signals import signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.footstep import StepCurve, step_reset
 from biped_adrc.control.npd import NPDController
+from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.run import simulate_by
-from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.constraint import VirtualConstraint, continued
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.family import DECISION, GaitFamily, PolynomialMap, StepMap
@@ -50,10 +53,12 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import JointCurve, ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
+from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits, Limits
 
 RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""
+SHORT = 1e-3
+"""Share [1] by which H may fall short of the height that is asked for."""
 _STEPS = 2
 """Steps of the walk that proves a gait."""
 _H = 2.5e-4
@@ -79,6 +84,10 @@ class DesignedGait(Shown):
     """Iterations of IPOPT."""
     seconds: float
     """Wall time of the design [s]."""
+    rough: RoughGround | None = None
+    """How rough a ground the gait bears, where that is asked for."""
+    level: tuple[float, float] | None = None
+    """Objective and speed [m/s] of the same request without rough ground."""
 
     @property
     def speed(self) -> float:
@@ -90,7 +99,7 @@ class DesignedGait(Shown):
         c, o = self.certificate, self.request.objective
         unit = {"torque": " N^2 m s", "transport": "", "peak": " N m"}[o.value]
         within = f"between the first and the last {100.0 * ENDS:g} % of the step"
-        rows = [
+        rows: list[tuple[str, ...]] = [
             ("speed", f"{self.speed:.6f} m/s"),
             ("step length", f"{c.step_length:.6f} m"),
             ("period", f"{self.gait.period:.6f} s"),
@@ -101,10 +110,19 @@ class DesignedGait(Shown):
             ("least F_N", f"{c.least_normal_force:.1f} N"),
             ("foot clearance", f"{1e3 * c.clearance:.1f} mm, {within}"),
             ("cost of transport", f"{c.cost_of_transport:.4f}"),
+            *self._rough_rows(unit),
             (f"walked {_STEPS} steps under NPD, back within {self.gap:.1e}",),
             (f"designed in {self.seconds:.1f} s, {self.iterations} iterations",),
         ]
         return "\n".join(columns(rows, 19))  # 19: least width of the first column
+
+    def _rough_rows(self, unit: str) -> list[tuple[str, str]]:
+        """Rows of the table: what the gait bears, and the cost without that; unit: of the objective."""
+        if self.rough is None or self.level is None:
+            return []
+        value, speed = self.level
+        cost = f"{value:.6g}{unit} at {speed:.6f} m/s"
+        return [("H on rough ground", str(self.rough.reach())), ("without rough ground", cost)]
 
 
 def design_gait(
@@ -153,7 +171,8 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     NPD is the paper's feedback linearisation with PD. optimum: the result of `optimise`. The simulation shares
     neither nodes nor quadrature with the design, only the robot.
 
-    Raises GaitError when the gait does not walk, violates a limit, or leaves its orbit.
+    Raises GaitError when the gait does not walk, violates a limit, leaves its orbit, or does not bear the rough
+    ground.
     """
     gait, limits = optimum.gait, request.limits.of(biped)
     # longest: time limit of one single support [s]
@@ -183,21 +202,45 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
             "is its step cut short by the foot touching early?"
         )
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    effort = optimum.iterations, optimum.seconds
-    return DesignedGait(gait, request, optimum.objective, certificate, delta2, gap, *effort)
+    effort, rough = (optimum.iterations, optimum.seconds), _on_rough_ground(biped, gait, request)
+    proof = certificate, delta2, gap, *effort, rough, optimum.level
+    return DesignedGait(gait, request, optimum.objective, *proof)
 
 
-RESERVE = StepLimits(
-    friction=0.42, impulse_friction=0.45, torque=120.0, clearance=0.08, lift_off=0.5
-)
-"""Limits of the library. A step between two members asks for more friction than the members do; the foot comes
-down steeply, so that uneven ground changes the end of a step little."""
-CURVE_DEGREE, STEP_DEGREE = 4, 3
+def _on_rough_ground(biped: Biped, gait: Gait, request: GaitRequest) -> RoughGround | None:
+    """How rough a ground a designed gait bears with ReferenceReset; None where none is asked for.
+
+    Raises GaitError where that is less than asked for, with the largest height found and what stops it.
+    """
+    limits = request.limits.of(biped)
+    if not limits.rough:
+        return None
+    law = ReferenceReset(NPDController(continued(gait.constraint)))
+    rough = rough_ground(
+        Walker(biped, law), gait, Limits(limits.friction, limits.torque), forces=()
+    )
+    # an impulse that the request allows more friction does not count
+    free = (IMPULSE,) if limits.impulse_friction > limits.friction else ()
+    H, cause = rough.reach(but=free)
+    if not (1.0 - SHORT) * limits.rough <= H:
+        raise GaitError(
+            f"no gait with {request.in_words()} was found; the largest height found is {1e3 * H:.1f} mm, where "
+            f"the limit '{cause}' stops it: ask for less height, or a slower or shorter step"
+        )
+    return rough
+
+
+RESERVE = StepLimits(friction=0.5, impulse_friction=0.5, torque=130.0, clearance=0.08, lift_off=0.5)
+"""Limits of the library. A step between two members asks for more friction and torque than the members do."""
+STEEPEST = 0.08
+"""Largest H of a gait of the library as a share of its step length [1]."""
+CURVE_DEGREE, STEP_DEGREE, CYCLE_DEGREE = 4, 4, 6
 """Degrees of the polynomials."""
 OF_LIBRARY = ("method", "curves", "minimised", "limits")
 """Entries of a gait's provenance that are the same for all gaits of the library."""
-_SAMPLES = 1200
-"""Number of random walking steps to which `StepMap` is fitted."""
+_SAMPLES, _GRID = 1200, 11
+"""Number of random walking steps to which `StepMap` is fitted, and of speeds and of lengths of cycles; both
+count the same."""
 _NODES = 16
 """Number of Gauss nodes of each part of a step, before and after the decision (`control.footstep`)."""
 
@@ -224,18 +267,32 @@ def library(
         )
     for v, L in itertools.product(speeds, lengths):
         try:
-            gait = optimise(biped, GaitRequest(v, L, limits=limits)).gait
+            gait, H = _in_library(biped, v, L, limits)
         except GaitError as error:
             done(f"{v:g} m/s, {L:g} m: none, {error}")
             continue
         gaits.append((v, L, gait))
-        done(f"{v:g} m/s, {L:g} m: {gait.period:.3f} s")
+        borne = f", rough ground of {1e3 * H:.3g} mm" if limits.rough else ""
+        done(f"{v:g} m/s, {L:g} m: {gait.period:.3f} s{borne}")
     if len(gaits) < least:
         raise GaitError(
             f"{len(gaits)} of {len(speeds)} x {len(lengths)} pairs of speed and step length have a gait; "
             f"a family needs at least {least}"
         )
     return gaits
+
+
+def _in_library(biped: Biped, v: float, L: float, limits: StepLimits) -> tuple[Gait, float]:
+    """The gait of the library for v [m/s] and L [m], and H [m] of the rough ground that it was designed for:
+    that of the limits, or STEEPEST times L if that is less; 0 where no gait bears it.
+    """
+    H = min(limits.rough, STEEPEST * L)
+    if H:
+        with suppress(GaitError):
+            found = optimise(biped, GaitRequest(v, L, limits=replace(limits, rough=H)))
+            if found.height >= H:
+                return found.gait, H
+    return optimise(biped, GaitRequest(v, L, limits=replace(limits, rough=0.0))).gait, 0.0
 
 
 def design_family(
@@ -262,7 +319,7 @@ def design_family(
         biped.description.name,
         biped.preset,
         curves,
-        StepMap(empty, empty),
+        StepMap(empty, empty, empty),
         constraints[0].phase,
         mu.min(axis=0),
         mu.max(axis=0),
@@ -275,8 +332,12 @@ def design_family(
     # a row of `ends` is a random pair of steps, the arguments of `step_integrals`: speed v and length L of the
     # member at the impact between them, length `before` of the step before both, speed `end` and length
     # `ahead` of the member that ends the second step; low and high are ends of the ranges (speed, length)
-    # _SAMPLES random steps
+    # _SAMPLES random steps, and those of the periodic walks, which decide on the speed that is held
+    grid = itertools.product(*(np.linspace(*ends, _GRID) for ends in zip(low, high, strict=True)))
+    cycles = [cycle for v, L in grid if (cycle := _cycle(biped, family, v, L))]
+    periodic = np.array([(v, L, L, v, L) for v, L, *_ in cycles])
     ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
+    ends = np.concatenate((ends, np.repeat(periodic, 1 + _SAMPLES // len(periodic), axis=0)))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
     v, before, L, end, ahead = ends.T
     # columns of steps: delta^2 of the impact, 2 W', J' from it to the second step's decision, dq_b/dTheta after
@@ -284,7 +345,19 @@ def design_family(
     to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEP_DEGREE)
     earlier = np.column_stack((v, before, L, ahead))
     to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
-    return replace(family, steps=StepMap(to_impact, to_decision), members=members)
+    _, L, speed, y = np.transpose(cycles)
+    of_cycle = PolynomialMap.fit(np.column_stack((speed, L)), y[:, np.newaxis], CYCLE_DEGREE)
+    return replace(family, steps=StepMap(to_impact, to_decision, of_cycle), members=members)
+
+
+def _cycle(biped: Biped, family: GaitFamily, v: float, L: float) -> tuple[float, ...]:
+    """v, L, mean speed [m/s], and sigma^2 at the decision of the periodic walk on the member; () for none."""
+    delta2, twice_W_next, *_, twice_W, _ = step_integrals(biped, family, v, L, L, v, L)
+    try:
+        period = ZeroDynamics.of(biped, family.member(v, L)).cycle.period
+    except GaitError:
+        return ()
+    return v, L, L / period, (delta2 * twice_W + twice_W_next) / (1.0 - delta2)
 
 
 def step_integrals(

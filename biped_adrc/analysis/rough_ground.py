@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from biped_adrc.analysis.stride_map import FAR, HIGHEST, SIDE, StrideMap
+from biped_adrc.analysis.stride_map import FAR, SIDE, StrideMap
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_constraint
 from biped_adrc.control.reference_reset import ReferenceReset
@@ -37,6 +37,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint, continued
+from biped_adrc.gait.design.rough import HIGHEST
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import robot_of

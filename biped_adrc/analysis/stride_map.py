@@ -41,12 +41,13 @@ from biped_adrc.control.reference_reset import LEAST_REACH, reset_coefficients
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.constraint import VirtualConstraint, past_end
+from biped_adrc.gait.design.rough import HIGHEST
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.limits import ENDS, KnownLimits
 
-SIDE, HIGHEST = 100, 0.1
-"""Number of heights to either side of 0, and the largest one as a share of the leg's length [1]."""
+SIDE = 100
+"""Number of heights to either side of 0."""
 PHASES, NEAR, LATEST = 241, 1.05, 1.5
 """Number of phases of a part of a step; s [1] up to which they are dense past Theta-, and the last s."""
 FAR = 1e12

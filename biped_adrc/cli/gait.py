@@ -27,6 +27,7 @@ from biped_adrc.cli.app import FIGURES, GAITS, command_line, console, group, inp
 from biped_adrc.cli.options import assignments, options, with_sets
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import check_folder
+from biped_adrc.scenario.units import quantity
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.gait_design import DesignedGait
@@ -46,6 +47,7 @@ def gait_design(
     preset: str | None = None,
     slope: float = 0.0,
     minimise: str = "torque",
+    rough: str | None = None,
     sets: list[str] | None = None,
     out: Path | None = None,
 ) -> None:
@@ -56,11 +58,14 @@ def gait_design(
     of_limits = [text for text in sets or () if text.startswith("limits.")]
     others = [text for text in sets or () if text not in of_limits]
     limits = with_sets(ba.StepLimits, [text.removeprefix("limits.") for text in of_limits])
+    if rough is not None:
+        limits = replace(limits, rough=_height(rough))
     # --steps: a family; --speeds alone: a library; neither: one gait
     if steps is not None:
         if others:
             raise InputError(f"--set {others[0]}: a family takes limits, as limits.torque=100")
-        _family(ba.Biped.load(robot, preset), speeds, steps, limits if of_limits else None, out)
+        own = limits if of_limits else None
+        _family(ba.Biped.load(robot, preset), speeds, steps, own, limits.rough, out)
         return
     if speeds is None:
         out = target(out, GAITS, inputs(robot))
@@ -78,6 +83,14 @@ def gait_design(
     path = out or Path(result.gait.file_name)
     result.gait.save(path)
     console.written(path)
+
+
+def _height(text: str) -> float:
+    """A height [m] from a text such as "40 mm". Raises InputError for any other text."""
+    try:
+        return quantity(text, "m")
+    except ValueError as error:
+        raise InputError(f"--rough: {error}") from None
 
 
 def _design(biped: ba.Biped, request: GaitRequest) -> DesignedGait:
@@ -124,19 +137,26 @@ def _library(biped: ba.Biped, speeds: str, request: Callable[..., GaitRequest], 
 
 
 def _family(
-    biped: ba.Biped, speeds: str | None, steps: str, limits: ba.StepLimits | None, out: Path | None
+    biped: ba.Biped,
+    speeds: str | None,
+    steps: str,
+    limits: ba.StepLimits | None,
+    rough: float,
+    out: Path | None,
 ) -> None:
     """Design a gait for every pair of speed and step length, fit a family to them, and store it in a file.
 
     speeds [m/s], steps [m]: texts that `_numbers` reads. limits: None for RESERVE, which leaves room for steps
-    from one gait of the family to another. out: None for family.json. Raises InputError without speeds.
+    from one gait of the family to another. rough [m]: height of the rough ground. out: None for family.json.
+    Raises InputError without speeds.
     """
     from biped_adrc.analysis.gait_design import RESERVE, design_family, library
 
     if speeds is None:
         raise InputError("--steps is given without --speeds; a family needs both")
     path = target(out or Path("family.json"), GAITS)
-    gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=console.say)
+    kept = replace(limits or RESERVE, rough=rough)
+    gaits = library(biped, _numbers(speeds), _numbers(steps), kept, done=console.say)
     with console.status("fitting the family"):
         # the package stores it as NAME-PRESET.json: the preset is no part of the family's name
         name = path.stem.removesuffix(f"-{biped.preset}")

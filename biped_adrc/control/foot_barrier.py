@@ -44,7 +44,7 @@ from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import length_of
+from biped_adrc.model.ground import of_step
 from biped_adrc.model.planar import LinkPoint, Turned, jacobian, point, turned
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.observers.base import Estimate
@@ -165,7 +165,7 @@ class FootBarrier(Around):
         x, dx, J, ddx = self.foot(m.q, m.v)
         x_r, dx_r, J_r, ddx_r = self.foot(q_r, v_r)
         # stones[k - 1] in step k; behind the last stone 1.0, as any length will do: `missing` is 0 there
-        x_c, slope, bend = self.corridor(x_r, length_of(self.stones, m.step, 1.0))
+        x_c, slope, bend = self.corridor(x_r, of_step(self.stones, m.step, 1.0))
         # slope, bend: dx_c/dx_r, d2x_c/dx_r2; e'' = G q'' + g, with G (n,) until q_N'' is inserted
         G = J - slope * (J_r @ R)
         g = ddx - slope * (ddx_r + J_r @ a_r) - bend * dx_r**2

@@ -21,15 +21,15 @@ next step is
 
     y        sigma^2, with sigma [kg m^2/s] the angular momentum about the stance foot
     r        estimate [N m] of the torque from outside on the unactuated row, of the coordinate without motor
-    y_0      y at the decision in the cycle at the speed to keep
+    y_0      y at the decision in the cycle at the speed to keep in the next step
     y_free   y at the next decision without the correction. Its v+ is the speed of the member whose cycle has
              y_0 while r acts
-    delta    sigma just after the impact over sigma just before it, in the cycle
+    delta    sigma just after the impact over sigma just before it, in that cycle
 
 Without the correction the error y - y_0 is delta^2 times as large at the next decision, with it `pole` times.
-y_next is kept between the y of the cycles at 0.5 m/s, below which the walk may stall, and at 1.1 m/s. The map
-from step to step is used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the
-contact as its state (Gong, Grizzle, arXiv 2008.10763).
+y_next is kept between the y of the cycles of the family's slowest and fastest member, and v+ at most SLOWER =
+0.15 m/s below v-. The map from step to step is used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the
+angular momentum about the contact as its state (Gong, Grizzle, arXiv 2008.10763).
 
 The estimates of sigma and r come from a momentum observer with its poles at -omega: sigma' = -G_N + r, with G_N
 gravity's part of the unactuated row.
@@ -48,7 +48,7 @@ from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
 from biped_adrc.control.reference_reset import ResetPolynomial, reset_coefficients
 from biped_adrc.control.tracking import body_of
-from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.checks import PositiveFloat, PositiveFloats
 from biped_adrc.core.errors import GaitError, ReachError
 from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.tree import chosen
@@ -57,14 +57,14 @@ from biped_adrc.gait.constraint import Correction, VirtualConstraint
 from biped_adrc.gait.family import DECISION, GaitFamily, load_family
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import length_of
+from biped_adrc.model.ground import of_step
 
 SETTLED = 0.9
 """Share of a walking step, in Theta, from which h is the member g alone."""
 EARLY = 0.2
 """A run that starts at a smaller share of a walking step bends this first step to its own posture by R."""
-SLOWEST, FASTEST = 0.5, 1.1
-"""Speeds [m/s] between whose cycles y at the next decision is kept."""
+SLOWER = 0.15
+"""Most by which v+ is below v- [m/s]: a robot that slows down more in one step loses its grip, or falls."""
 
 
 def blend(s: float) -> tuple[float, float, float]:
@@ -127,7 +127,7 @@ class StepState(NamedTuple):
     before: float
     """Length of the step before [m]."""
     sigma: float
-    """Estimate of the angular momentum about the stance foot [kg m^2/s]."""
+    """Estimate of the angular momentum about the stance foot, half a period ago [kg m^2/s]."""
     r: float
     """Estimate of the torque from outside on the unactuated row of the dynamics [N m]."""
     plus: float
@@ -152,10 +152,11 @@ class Footstep(OuterLoop):
     """The module's outer loop around `inner`, whose constraint becomes h; its own state w is a `StepState`.
 
     inner: the controller that tracks h. family: of gaits, from which each step is taken. speed [m/s]: the speed
-    to keep. step [m]: length of the steps where there are no stones. stones [m]: lengths of the steps, the
-    first one first. pole [1]: factor of the error of y from step to step. bandwidth [rad/s]: omega of the
-    momentum observer. period [s]: of the ticks, in sampled time. Raises GaitError for a speed, ReachError for a
-    stone that no member reaches.
+    to keep. speeds [m/s]: those to keep in steps 1, 2, .. instead; behind the last of them comes `speed`. step
+    [m]: length of the steps where there are no stones. stones [m]: lengths of the steps, the first one first.
+    pole [1]: factor of the error of y from step to step. bandwidth [rad/s]: omega of the momentum observer.
+    period [s]: of the ticks, in sampled time. Raises GaitError for a speed, ReachError for a stone that no
+    member reaches.
 
     >>> controller = ba.Footstep.on_gait(ba.NPDController(gait.constraint), gait, biped, step=0.3)
     >>> force, clock = ba.HipForce(biped, (-12.0, 0.0), steps=(3, 99)), ba.SampledTime(1e-3)
@@ -171,11 +172,17 @@ class Footstep(OuterLoop):
     pole: float = 0.35
     bandwidth: PositiveFloat = 20.0
     period: float = 1e-3
+    speeds: PositiveFloats = ()
 
     needs_body = True
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for k, v in enumerate(self.speeds, 1):
+            try:
+                self.family.check(v, self.step)
+            except GaitError as error:
+                raise GaitError(f"speed {k} of the list is out of reach: {error}") from None
         self.family.check(self.speed, self.step)
         for k, L in enumerate(self.stones, 1):
             try:
@@ -189,34 +196,37 @@ class Footstep(OuterLoop):
         inner: Controller,
         gait: Gait,
         biped: Biped,
-        family: str | Path = "flat",
+        family: str | Path = "rough",
         speed: float | None = None,
         step: float | None = None,
         stones: Sequence[float] = (),
         pole: float = 0.35,
         bandwidth: float = 20.0,
+        speeds: Sequence[float] = (),
     ) -> Footstep:
         """The controller around `inner`, with a stored family of `biped`, by its name or file.
 
-        speed [m/s], step [m]: those of the gait if None. stones [m]: lengths of the steps. pole [1] and
-        bandwidth [rad/s]: as fields of the class.
+        speed [m/s], step [m]: those of the gait if None, and speed the last one of `speeds` [m/s], where there
+        are some. stones [m], pole [1], bandwidth [rad/s]: as fields of the class.
         """
-        length = gait.step_length(biped)
-        speed = length / gait.period if speed is None else speed
-        lengths = tuple(map(float, stones))
-        known = load_family(family, biped)
-        return cls(inner, known, speed, length if step is None else step, lengths, pole, bandwidth)
+        length, rates = gait.step_length(biped), tuple(np.ravel(speeds).tolist())
+        usual = rates[-1] if rates else length / gait.period
+        return cls(
+            inner,
+            load_family(family, biped),
+            usual if speed is None else speed,
+            length if step is None else step,
+            tuple(map(float, stones)),
+            pole,
+            bandwidth,
+            speeds=rates,
+        )
 
     def sampled(self, period: float) -> Self:
         return with_fields(self, inner=self.inner.sampled(period), period=period)
 
     def continuous(self) -> Self:
         self._only_sampled()  # decisions are made at sample instants
-
-    @derived
-    def gain(self) -> float:
-        """The factor 1 - pole / delta^2 [1] of the module's equation, for the cycle at `speed` and `step`."""
-        return float(1.0 - self.pole / self.family.steps.delta_squared(self.speed, self.step))
 
     @derived
     def base(self) -> VirtualConstraint:
@@ -228,7 +238,15 @@ class Footstep(OuterLoop):
 
     def length(self, step: int) -> float:
         """L [m] of the single support with number `step`: to its stone, or the usual length without stones."""
-        return length_of(self.stones, step, self.step)
+        return of_step(self.stones, step, self.step)
+
+    def kept(self, step: int) -> float:
+        """Speed [m/s] to keep in the single support with number `step`."""
+        return of_step(self.speeds, step, self.speed)
+
+    def momentum(self, m: Measurement) -> float:
+        """sigma half a period before m [kg m^2/s], at which G_N at m is the mean of G_N over a period."""
+        return m.terms.D[-1] @ m.v + 0.5 * self.period * body_of(m).G[-1]
 
     def begun(self, v: float, earlier: float, before: float, r: float, m: Measurement) -> StepState:
         """w of a walking step that begins at m on the member v [m/s], after two steps of lengths `earlier` and
@@ -240,16 +258,15 @@ class Footstep(OuterLoop):
         # the entries behind delta^2, 2 W', J' are dq_b/dTheta just after impact
         slope = self.family.steps.to_decision(np.array((v, earlier, before, L)))[3:]
         reset = step_reset(self.family, np.array((v, L)), plus, m.q_b, slope)
-        # v+ = v at first; the last row of the momentum D q' is sigma
-        return StepState(v, v, L, before, m.terms.D[-1] @ m.v, r, plus, reset)
+        return StepState(v, v, L, before, self.momentum(m), r, plus, reset)  # v+ = v at first
 
     def own_start(self, h: Constraint, m: Measurement) -> StepState:
         """w at the start of a run; h is not used. A run that starts within a step, at a share above EARLY =
         0.2, follows the member itself: its R is zero, and its Theta+ that of the member.
         """
         # as if two steps of the usual length came before, and without a torque from outside
-        w = self.begun(self.speed, self.step, self.step, 0.0, m)
-        _, plus, minus = self.family.curve(np.array((self.speed, w.L)))
+        w = self.begun(self.kept(m.step), self.step, self.step, 0.0, m)
+        _, plus, minus = self.family.curve(np.array((w.begin, w.L)))
         early = (w.plus - plus) / (minus - plus) < EARLY
         return chosen(early, w, w._replace(plus=plus, reset=0.0 * w.reset))
 
@@ -260,7 +277,7 @@ class Footstep(OuterLoop):
     def own_correct(self, w: StepState, m: Measurement) -> StepState:
         """Move the estimates of sigma and r on by a period (Euler), and compute v+ anew until the decision."""
         T, omega, x = self.period, self.bandwidth, w
-        e = m.terms.D[-1] @ m.v - x.sigma  # sigma by the measurement, less its estimate
+        e = self.momentum(m) - x.sigma  # by the measurement, less the estimate
         r = x.r + T * omega**2 * e
         sigma = x.sigma + T * (x.r - body_of(m).G[-1] + 2.0 * omega * e)
         # minus: Theta- of the member on which the step began; early: the share of the step in Theta is below
@@ -275,27 +292,32 @@ class Footstep(OuterLoop):
 
         x: state of the step. step: number of the single support.
         """
-        steps, ahead = self.family.steps, self.length(step + 1)
+        # y is that of the next step, so its length and speed count
+        steps, ahead, speed = self.family.steps, self.length(step + 1), self.kept(step + 1)
         begin = np.array((x.begin, x.before))  # v-, and the length of the step before
 
         # y at the next decision if this step ends on the member of the speed v
         def following(v: float) -> float:
             return steps.next_square(y, begin, np.array((v, x.L)), ahead, r)
 
-        y_0 = steps.cycle_square(self.speed, ahead)
+        y_0 = steps.of_cycle(np.array((speed, ahead)))[0]
         # y_free: y at the next decision with the v whose cycle has y_0 under r
         free = following(self.zero(lambda v: steps.cycle_square(v, ahead, r) - y_0))
-        goal = free + self.gain * (y_0 - free)
-        # the y of the cycles at 0.5 and 1.1 m/s
-        low, high = (steps.cycle_square(v, ahead) for v in (SLOWEST, FASTEST))
+        goal = free + (1.0 - self.pole / steps.delta_squared(speed, ahead)) * (y_0 - free)
+        # the y of the cycles of the slowest and the fastest member
+        low, high = (
+            steps.cycle_square(v, ahead) for v in (self.family.low[0], self.family.high[0])
+        )
         goal = np.minimum(np.maximum(goal, low), high)
-        return self.zero(lambda v: following(v) - goal)
+        return np.maximum(self.zero(lambda v: following(v) - goal), x.begin - SLOWER)
 
     def zero(self, f: Callable[[float], float]) -> float:
-        """The speed v [m/s] in the family's range at which f(v) is 0, by the parabola through f at both ends
-        and in the middle of the range. Where that is 0 nowhere in it, the nearer end.
+        """The speed v [m/s] in the family's range at which f(v) is 0. Where that is 0 nowhere in it, the nearer
+        end.
 
-        A loop to a tolerance would not do, since this becomes machine code without branches.
+        It is the zero of the parabola through f at both ends and in the middle of the range, and two steps of
+        Newton's method with its slope: a loop to a tolerance would not do, since this becomes machine code
+        without branches.
         """
         low, high = self.family.low[0], self.family.high[0]
         f_0, f_1, f_2 = f(low), f(0.5 * (low + high)), f(high)
@@ -304,4 +326,8 @@ class Footstep(OuterLoop):
         # the zero at which f rises, in the form without cancellation; the floor keeps the root real where the
         # parabola has no zero; y has a size of 100 kg^2 m^4/s^2
         root = np.sqrt(np.maximum(b * b - 4.0 * c * f_0, 1e-6))
-        return low + (high - low) * np.minimum(np.maximum(-2.0 * f_0 / (b + root), 0.0), 1.0)
+        z = np.minimum(np.maximum(-2.0 * f_0 / (b + root), 0.0), 1.0)
+        for _ in range(2):
+            # root is df/dz at the parabola's zero
+            z = np.minimum(np.maximum(z - f(low + (high - low) * z) / root, 0.0), 1.0)
+        return low + (high - low) * z

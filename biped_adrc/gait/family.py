@@ -22,7 +22,7 @@ Theta has gone the share DECISION = 0.35 of its way. y = sigma^2 at the decision
     delta   sigma just after the impact over sigma just before it [1]
     W, J    integrals from the decision to the impact; W', J' from the impact to the next decision
 
-`StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too.
+`StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too, and y at the decision of the periodic walks.
 """
 
 import json
@@ -42,7 +42,7 @@ from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
 from biped_adrc.gait.curves import Bezier, bernstein_to_power
 from biped_adrc.model.biped import Biped
 
-_FORMAT = "biped_adrc family 1"
+_FORMAT = "biped_adrc family 2"
 """First entry of a family's file."""
 DECISION = 0.35
 """Share of a walking step, in Theta, at which `control.footstep` decides on which member the step ends."""
@@ -95,6 +95,9 @@ class StepMap(Part):
     to_decision: PolynomialMap
     """(v, L of the step before, L, L of the next step) -> delta^2 of the impact, 2 W' [kg^2 m^4/s^2],
     J' [kg m^2], and dq_b/dTheta (p,) [rad/rad] just after the impact."""
+    of_cycle: PolynomialMap
+    """(mean speed [m/s], L) of a periodic walk -> y at its decision; the fit of the curves moves the mean speed
+    of the member v by some per cent from v."""
 
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
         """y [kg^2 m^4/s^2] at the next step's decision, from y at this step's decision.

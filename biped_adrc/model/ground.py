@@ -148,17 +148,17 @@ class Stones(Checked):
         return max(abs(length - self.lengths[step - 1]) - self.tolerance, 0.0)
 
 
-def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
-    """The length [m] that brings single support `step` to its stone; `usual` [m] behind the last stone.
+def of_step(values: tuple[float, ...], step: int, usual: float) -> float:
+    """The value of single support `step` in a list, such as the length [m] to its stone; `usual` behind it.
 
-    stones: lengths [m] of single supports 1, 2, ... step: a number, or a symbol of the code generator, which
-    cannot be an index.
+    values: of single supports 1, 2, ... step: a number, or a symbol of the code generator, which cannot be an
+    index.
     """
-    L: Any = usual  # the length [m]
+    x: Any = usual
     # equality of the numbers k and step, which may be a float
-    for k, stone in enumerate(stones, 1):
-        L = np.where(abs(step - k) < 0.5, stone, L)
-    return L
+    for k, value in enumerate(values, 1):
+        x = np.where(abs(step - k) < 0.5, value, x)
+    return x
 
 
 def _are_steps(steps: object) -> bool:

@@ -2,7 +2,7 @@
 
 They are on pushes that an impact cut off; integration steps that are too long around the switching times of a
 push; a walk that went on behind the last of its stepping stones; a gait that was made for another robot, slope
-or controller; and a controller that does less than was asked.
+or controller; and a controller that lacks a method, or whose observer does not fit the sensors.
 
 The window of a push, the time in which it acts, counts from the start of one single support. When the impacts
 come is known only once the walk is simulated, and depends on the push. So a walk with a window that an impact
@@ -27,7 +27,6 @@ import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import nested
-from biped_adrc.control.footstep import FASTEST, SLOWEST, Footstep
 from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.disturbances.base import Disturbance, summands
@@ -84,8 +83,7 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
 
 def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
     """Yield a sentence for each controller that has a state but no method `jump`, which exchanges the legs in
-    the state at an impact, and for a `Footstep` controller (it decides where the next foot lands, for a target
-    speed) whose target is outside of the speeds that it can keep.
+    the state at an impact.
     """
     for law in nested(walker.controller):  # the controller, and those inside it
         # _writes: whether its class overrides this method of the base class
@@ -93,9 +91,6 @@ def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
         if kept and trajectory.events(FOOT_STRIKE):
             yield f"{name} has a state and no jump(s, after, swap) to exchange the legs in it at an impact"
         yield from _of_observer(walker, name, getattr(law, "observer", None))
-        # rounded to mm/s: the speed of a gait, which may be the target, has round-off
-        if isinstance(law, Footstep) and not SLOWEST <= round(law.speed, 3) <= FASTEST:
-            yield f"{name} aims at {SLOWEST:g} to {FASTEST:g} m/s, and was asked for {law.speed:g} m/s"
 
 
 def _of_observer(walker: Walker, law: str, observer: Any) -> Iterator[str]:

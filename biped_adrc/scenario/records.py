@@ -361,7 +361,10 @@ def converted(what: Described, x: Any) -> Any:
     if isinstance(x, np.generic | np.ndarray):
         x = x.tolist()
     if isinstance(x, list | tuple) and all(isinstance(y, int | float | str) for y in x):
-        return tuple(x)
+        # units in a list for a user's part
+        return tuple(
+            y if types or not isinstance(y, str) else own_quantity(y, what.unit) for y in x
+        )
     if isinstance(x, Mapping) and dict in types:
         return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
     if isinstance(x, str):

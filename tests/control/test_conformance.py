@@ -67,7 +67,10 @@ ROWS = {
         "stride PI": lambda make, h: [
             ba.StridePI(ba.NPDController(h), 0.7, 0.3, TORSO_LEAN, StrideGains(-1.0, -0.4))
         ],
-        "footstep": lambda make, h: [make(ba.NPDController(h), gait(), robot(), stones=(0.3, 0.5))],
+        "footstep": lambda make, h: [
+            make(ba.NPDController(h), gait(), robot(), "flat", stones=(0.3, 0.5)),
+            make(ba.NPDController(h), gait(), robot(), speeds=(0.5, 0.7, 0.6)),
+        ],
         "reference reset": lambda make, h: [make(ba.ADRCController(h))],
         "foot barrier": lambda make, h: [
             make(ba.NPDController(h), robot()),

@@ -65,6 +65,21 @@ for (let k = 0; play.walking[0].walks && play.leader.t < seconds; k += 1) {
 }
 return { text: scenarioText(play), states, ending: play.walking[0].ending };
 """
+MOVED = """
+const [name, value] = arguments, states = [], slider = "controller.speed", walks = [name];
+const seen = ({ t, step, q, v }) => [t, step, ...q, ...v];
+play.pause(); play.begin(name, null); showSliders(name);
+while (play.leader.step < 3) play.sample();
+play.tune({ slider, value, walks });
+while (play.leader.walks && play.leader.step < 7) { play.sample(); states.push(seen(play.leader)); }
+play.begin(name, null);
+while (play.leader.step < 4) play.sample();
+const text = scenarioText(play), saved = seen(play.leader);
+play.tune({ slider, value: undefined, walks });
+const [row] = [...document.querySelectorAll("#sliders input")].filter((x) => x.ariaLabel === "speed [m/s]");
+const one = numbers.walks[name].sliders.find((x) => x.name === slider);
+return { states, text, saved, one, shown: row !== undefined };
+"""
 
 
 @pytest.fixture(scope="module")
@@ -80,6 +95,14 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
         started.implicitly_wait(60)
         started.find_element("css selector", "#sliders input")
         yield started
+
+
+def same(walk: ba.Walk, t: float, step: float, *x: float) -> None:
+    """The state x of the page at t [s] is that of the finished walk."""
+    arc = walk.trajectory.arcs[int(step) - 1]
+    # t may be behind the arc's end by round-off
+    there = arc(min(t, float(arc.t[-1])), "left")[: len(x)]
+    np.testing.assert_allclose(x, there, rtol=0.0, atol=1e-8, err_msg=f"at {t} s")
 
 
 def test_every_controller_that_is_traced_is_here() -> None:
@@ -99,13 +122,30 @@ def test_what_a_hand_did_is_walked_again(browser: Chrome, tmp_path: Path, name: 
     found = browser.execute_script(HAND, name, 1.3)
     path = tmp_path / "by_hand.toml"
     path.write_text(found["text"], encoding="utf-8")
-    run = ba.walk_scenario(read_scenario(path)).trajectory
+    walk = ba.walk_scenario(read_scenario(path))
     assert len(found["states"]) > 15  # it did not end at once
-    for t, step, *x in found["states"]:
-        arc = run.arcs[int(step) - 1]
-        # t may be behind the arc's end by round-off
-        there = arc(min(t, float(arc.t[-1])), "left")[: len(x)]
-        np.testing.assert_allclose(x, there, rtol=0.0, atol=1e-8, err_msg=f"at {t} s")
+    for state in found["states"]:
+        same(walk, *state)
     if found["ending"]:
-        assert found["ending"].startswith(run.status.name.lower().replace("_", " "))
+        assert found["ending"].startswith(walk.trajectory.status.name.lower().replace("_", " "))
     assert console(browser) == []
+
+
+def test_the_speed_moves_while_it_walks(browser: Chrome, tmp_path: Path) -> None:
+    """A slider that goes from the speed of the walk to 0.7 m/s in step 3 does what a schedule does that has the
+    first speed up to step 3; one that is moved before the walk does what the scenario says that the page saves.
+    Its range is that of the family.
+    """
+    found = browser.execute_script(MOVED, "footstep", 0.7)
+    schedule = {"controller.speeds": [found["one"]["value"]] * 3, "controller.speed": 0.7}
+    s = revised(FIRST, WALKS["footstep"]).replace({**schedule, "run.impacts": 6})
+    walk = ba.walk_scenario(s)
+    family = walk.walker.law.family  # type: ignore[attr-defined]
+    assert [found["one"][end] for end in ("low", "high")] == [family.low[0], family.high[0]]
+    assert found["shown"]
+    assert found["states"][-1][1] == 7
+    for state in found["states"][::25]:
+        same(walk, *state)
+    path = tmp_path / "saved.toml"
+    path.write_text(found["text"], encoding="utf-8")
+    same(ba.walk_scenario(read_scenario(path)), *found["saved"])

@@ -18,12 +18,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.control.base import Controller
+from biped_adrc.control.footstep import Footstep
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.registry import find, takes
 from biped_adrc.core.types import Array
 from biped_adrc.scenario.controllers import CONTEXT, GAINS
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.units import PLAIN
 
 Form = tuple[float, float, int] | list[float]
 """How a number depends on the value s of a slider: (a, b, k) for a + b s^k, with tan(s) in place of s^k for
@@ -99,12 +102,13 @@ _USUAL = (
 )
 
 
-def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
+def offered(s: Scenario, law: Controller) -> Iterator[Slider]:
     """Iterate over the sliders that a scenario s may have: the usual ones, and those of its controller's own
     parameters.
 
-    order: m of the observer, None for none; it is kept when the bandwidth changes.
+    law: the controller; the order m of its observer is kept when the bandwidth changes.
     """
+    order = getattr(getattr(law, "observer", None), "m", None)
     # also: set with the observer's sliders; poles of a list would override the bandwidth, so they are dropped.
     # Gains that s leaves out are those of Table II of the paper
     also: dict[str, object] = {} if order is None else {OBSERVER + "order": order}
@@ -119,24 +123,27 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
     # takes: the parameters of its class; c.own: those that the scenario sets
     for name, parameter in takes(find("controller", c.name).load()).items():
         x = c.own.get(name, parameter.default)
-        if isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:
+        if isinstance(law, Footstep) and name == "speed":
+            low, high = law.family.low[0], law.family.high[0]
+            yield Slider("controller.speed", low, high, False, "m/s", value=law.speed)
+        elif isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:
             # a tenth to ten times the value, sorted, since it may be negative; logarithmic if it is positive
             low, high = sorted((0.1 * x, 10.0 * x)) if x else (-1.0, 1.0)
             yield Slider(f"controller.{name}", low, high, x > 0.0, value=x)
 
 
 def sliders(
-    s: Scenario, order: int | None, base: Array, numbers: _Numbers
+    s: Scenario, law: Controller, base: Array, numbers: _Numbers
 ) -> dict[str, tuple[Slider, dict[int, Form]]]:
     """Find the sliders of a walk: name -> (slider, index of each number that it changes -> form).
 
-    s: the walk's scenario. order: m of its observer, None for none. base (N,): numbers of the walk. numbers:
-    function that returns them for other values of s.
+    s: the walk's scenario. law: its controller. base (N,): numbers of the walk. numbers: function that returns
+    them for other values of s.
     """
     # moved: indices of the numbers that a slider changes already
     result, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
     # offered: candidates for this scenario; with_forms: one of them, and the forms of the numbers it changes
-    for one in offered(s, order):
+    for one in offered(s, law):
         try:
             one, forms = with_forms(one, base, numbers)
         except BipedError:  # the walk cannot have this slider, so the page goes without it
@@ -237,8 +244,8 @@ def at_base(one: Slider, base: Array, forms: dict[int, Form]) -> Slider:
     the slider stays as it is.
     """
     # the first form is solved for s: all of them give the same
-    unit = Scenario.field_of(one.name).unit.replace("^2", "²")
-    one = one._replace(unit="" if unit == "1" else unit)
+    unit = one.unit or Scenario.field_of(one.name).unit.replace("^2", "²")
+    one = one._replace(unit="" if unit in PLAIN else unit)
     place, form = next(iter(forms.items()))
     if isinstance(form, list):  # the numbers at the values of the slider's table
         rows = np.array([*forms.values()]).T

@@ -26,6 +26,7 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.footstep import Footstep
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
@@ -98,6 +99,10 @@ class PageWalk:
             if any(map(np.any, scene.biped.friction_coefficients)):
                 scene = scene_of(rubbed)
         walker = build(rubbed if scene.biped.friction else s, scene)
+        law = walker.controller
+        if isinstance(law, Footstep) and not law.speeds:
+            # the slider of the speed leaves the first step, with which the walk begins, as it is
+            return cls.of(name, s.replace({"controller.speeds": [law.speed]}), scene)
         if not isinstance(walker.timing, SampledTime):
             raise InputError(
                 f"the walk '{name}' is controlled at every instant, and that of a page at sample instants; "
@@ -171,13 +176,12 @@ class PageWalk:
         """Sliders of the walk by name, without that of the delay: (slider, name of each parameter that it
         changes -> dependence on the slider's value, a `Form`).
         """
-        # order: m of the observer; a slider that also changes cells without a name is left out. rubbed: the
-        # scenario with joint friction; at: all cells of the block for other values of it
-        order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
-        named = {k: name for name, k in self.names.items()}
+        # a slider that also changes cells without a name is left out. rubbed: the scenario with joint friction;
+        # at: all cells of the block for other values of it
+        law, named = self.walker.controller, {k: name for name, k in self.names.items()}
         result = {
             name: (one, {named[k]: form for k, form in forms.items()})
-            for name, (one, forms) in sliders(self.rubbed, order, self.numbers, self.at).items()
+            for name, (one, forms) in sliders(self.rubbed, law, self.numbers, self.at).items()
             if forms.keys() <= named.keys()
         }
         # coefficients of friction are proportional to their slider: a + b s^k with a = 0, k = 1

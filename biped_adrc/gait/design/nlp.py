@@ -45,6 +45,7 @@ import numpy as np
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
+from biped_adrc.gait.design.rough import RoughSteps
 from biped_adrc.gait.design.step import SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
 
@@ -65,7 +66,7 @@ Bounds = tuple[Array, Array]
 
 MAX_ITERATIONS = 250
 """Largest number of iterations of one run of IPOPT."""
-MAX_SECONDS = 60.0
+MAX_SECONDS = 300.0
 """Longest wall time of one run of IPOPT [s]."""
 ASKED = ("the speed", "the step length")
 """Names of the equality rows that state the request rather than the physics of the step."""
@@ -131,7 +132,9 @@ def transcribe(
     guess: Theta falls in a walk to +x with the paper's phase, but grows with the phase of other robots.
     """
     step = SymbolicStep(biped, request, limits, direction)
-    rows = (*_equalities(step), *_limits(step))
+    rough = RoughSteps(step).rows() if limits.rough else iter(())
+    others = (Bounded(name, ca.vec(x), low, high, unit) for name, x, low, high, unit in rough)
+    rows = (*_equalities(step), *_limits(step), *others)
     x = ca.vertcat(*(ca.vec(part) for part in step.x))
     return NonlinearProgram(x, _objective(step), rows), step.x
 

@@ -41,6 +41,7 @@ from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design import nlp
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
+from biped_adrc.gait.design.rough import EARLIEST, HIGHEST, LATEST
 from biped_adrc.gait.design.step import Unknowns, at_gait, stacked
 from biped_adrc.gait.gait import Gait, onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit, invariant_constraint
@@ -176,6 +177,8 @@ _EXACT = 1e-6
 """Largest violation of all other rows by an exact gait, dimensionless or [rad]."""
 SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
 """Bounds of the unknown rates."""
+_CALM = 1e-2
+"""Weight of the objective, which is about 1, in the search of the largest H, which counts as a share."""
 WINDING = 1.5
 """Largest distance of a Bezier coefficient from the first guess [rad]; else a leg may wind round by 2 pi."""
 
@@ -192,7 +195,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     names = ("normal_force", "clearance", "lift_off", "slowest")
     whole = {name: x for name in names if (x := getattr(limits, name)) is not None}
     left = {name: (1.0 - limits.reserve) * x for name, x in whole.items()}
-    loose = replace(limits, reserve=0.0, **left)
+    loose = replace(limits, reserve=0.0, rough=0.0, **left)
     rate = float(c.phase @ gait.v_minus)
     rates = np.abs(orbit.v @ c.phase)
     # 1.0: the largest torque allowed is the limit itself
@@ -236,14 +239,19 @@ class Optimum:
     """Iterations of IPOPT, over all stages and attempts."""
     seconds: float
     """Wall time [s]."""
+    level: tuple[float, float] | None = None
+    """Objective and speed [m/s] of the same request without rough ground, where that is asked for."""
+    height: float = 0.0
+    """H [m] at which the programme keeps the limits on rough ground, with the reserve."""
 
 
 def optimise(biped: Biped, request: GaitRequest) -> Optimum:
     """Find the gait of least objective from a cold start; as in every nonlinear programme the optimum is local.
 
-    Where the exact gait misses a limit between the nodes, it is designed once more with twice the nodes. Raises
-    GaitError naming the limits that would have to be relaxed, or the robot that has no such gait (exactly one
-    unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
+    Where the exact gait misses a limit between the nodes, it is designed once more with twice the nodes. Where
+    no gait is found that bears the rough ground, the one that bears most is returned. Raises GaitError naming
+    the limits that would have to be relaxed, or the robot that has no such gait (exactly one unactuated
+    coordinate is needed), and KeyboardInterrupt on Ctrl-C.
     """
     begin, spent, missed = perf_counter(), 0, list[str]()
     if biped.p != biped.n - 1 or biped.p == 0:
@@ -253,16 +261,23 @@ def optimise(biped: Biped, request: GaitRequest) -> Optimum:
         )
     for nodes in (request.nodes, 2 * request.nodes):
         finer = replace(request, nodes=nodes)
-        x, iterations = _solution(biped, finer)
-        spent += iterations
+        results = [_solution(biped, finer.on_level_ground())]
+        if request.limits.rough:
+            results.append(_on_rough_ground(biped, finer, results[0][0]))
+        spent += sum(iterations for _, iterations in results)
         try:
-            gait, orbit = exact_gait(biped, finer, x)
-            missed = audit(biped, gait, orbit, finer)
+            exact = [exact_gait(biped, finer, x) for x, _ in results]
+            missed = audit(biped, *exact[-1], finer)
         except GaitError as error:
             missed = [str(error)]
         if not missed:
-            value = objective_of(biped, request.objective, gait, orbit)
-            return Optimum(gait, value, spent, perf_counter() - begin)
+            values = [objective_of(biped, request.objective, *pair) for pair in exact]
+            level, gait = exact[0][0], exact[-1][0]
+            effort = spent, perf_counter() - begin
+            if not request.limits.rough:
+                return Optimum(gait, values[0], *effort)
+            without = values[0], level.step_length(biped) / level.period
+            return Optimum(gait, values[1], *effort, without, float(results[1][0].rough.ravel()[0]))
     raise GaitError(
         f"the gait found with {request.in_words()} keeps its limits at {2 * request.nodes} nodes and not "
         f"between them: {'; '.join(missed)}; give more nodes, another degree, or StepLimits with more reserve"
@@ -298,6 +313,41 @@ def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]
         if runs[-1].solved:
             guess = unknowns.split(runs[-1].x)
     return guess, iterations
+
+
+def _on_rough_ground(
+    biped: Biped, request: GaitRequest, level: Unknowns[Array]
+) -> tuple[Unknowns[Array], int]:
+    """Solve a request on rough ground from the solution `level` without that; returns the solution and the
+    number of iterations.
+
+    H is asked for with the reserve of the other limits, for the heights between. Where no gait is found that
+    bears it, the largest H is searched; the solution is the gait of that, or, if that is H, of the least
+    objective from there. Raises GaitError where IPOPT finds none of these.
+    """
+    limits, leg = request.limits.of(biped), robot_of(biped).leg
+    H = min((1.0 + limits.reserve) * limits.rough, HIGHEST * leg)
+    direction = float(np.sign(np.diff(level.theta.ravel())[0]))
+    programme, unknowns = nlp.transcribe(biped, request, limits, direction)
+    # landings at the end of the curve
+    guess = level._replace(rough=np.array([0.0, 1.0, 1.0]))
+    low, high = map(unknowns.split, _bounds(unknowns, guess, request, limits))
+    most = stacked(high._replace(rough=np.array([H, LATEST, LATEST])))
+    fixed, free = (stacked(low._replace(rough=np.array([h, EARLIEST, EARLIEST]))) for h in (H, 0.0))
+    highest = replace(programme, objective=_CALM * programme.objective - unknowns.rough[0] / H)
+    x, iterations = stacked(guess), 0
+    for each, least in ((programme, fixed), (highest, free), (programme, fixed)):
+        run = nlp.solve_nlp(each, x, (least, most))
+        iterations += run.iterations
+        if each is highest and not run.solved:
+            break
+        x = run.x if run.solved else x
+        if run.solved and (each is programme or unknowns.split(x).rough[0] < (1.0 - _EXACT) * H):
+            return unknowns.split(x), iterations
+    raise GaitError(
+        f"no gait with {request.in_words()} was found: IPOPT stopped with {run.status}; ask for less height, "
+        "or a slower or shorter step"
+    )
 
 
 def _bounds(

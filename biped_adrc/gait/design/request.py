@@ -68,6 +68,8 @@ class StepLimits(Checked, Shown):
       easily stopped.
     - reserve [1]: share of friction, torque, rates and of a quarter radian (or half the range) at either end of
       the ranges that is kept back at the nodes, for the phases between them.
+    - rough [m]: H of the rough ground that the gait bears with ReferenceReset: each foothold is higher or lower
+      by up to H than the one before.
 
     Raises InputError for a limit that is negative, zero where it divides, or a range without extent.
 
@@ -86,6 +88,7 @@ class StepLimits(Checked, Shown):
     multiplier: NonNegativeFloat = 0.95
     slowest: NonNegativeFloat = 0.15
     reserve: NonNegativeFloat = 0.02
+    rough: NonNegativeFloat = 0.0
 
     def of(self, biped: Biped) -> RobotLimits:
         """These limits with the robot's own in place of None, with the ranges of its record for joints that
@@ -161,13 +164,19 @@ class GaitRequest(Checked, Shown):
 
     def __post_init__(self) -> None:
         # targets (speed, step length or both) or a state, not both; and a curve between its outer coefficients
-        targets = self.speed is not None or self.step is not None
+        targets, rough = self.speed is not None or self.step is not None, self.limits.rough
         for fits, expected in (
             (targets != bool(self.through), "a speed, a step length or both, or a state"),
             (issubclass(self.kind, ControlledCurve), "a curve with ends, such as bezier"),
+            (not (self.slope and rough), "rough ground without a slope"),
+            (self.limits.clearance is not None or not rough, "a clearance on rough ground"),
         ):
             if not fits:
                 raise GaitError(f"no gait can be designed for {self!r}: expected {expected}")
+
+    def on_level_ground(self) -> GaitRequest:
+        """The same request without rough ground."""
+        return replace(self, limits=replace(self.limits, rough=0.0))
 
     def stages(self) -> tuple[GaitRequest, ...]:
         """Requests from an easy one to this one; the solution of each is the first guess for the next.
@@ -184,16 +193,17 @@ class GaitRequest(Checked, Shown):
     def in_words(self) -> str:
         """The request in words, for messages and the provenance, such as "0.8 m/s, a slope of 0.05 rad"."""
         state = ["the given pre-impact state"] if self.through else []
-        return ", ".join(state + self._said("{:g} m/s", "a step of {:g} m", "a slope of {:g} rad"))
+        forms = "{:g} m/s", "a step of {:g} m", "a slope of {:g} rad", "rough ground of {:g} m"
+        return ", ".join(state + self._said(*forms))
 
     def name(self) -> str:
         """Name of the gait, such as "v0.8-s0.5", which is also that of its file."""
-        return "through" if self.through else "-".join(self._said("v{:g}", "s{:g}", "slope{:g}"))
+        forms = "v{:g}", "s{:g}", "slope{:g}", "rough{:g}"
+        return "through" if self.through else "-".join(self._said(*forms))
 
     def _said(self, *forms: str) -> list[str]:
-        """Texts of speed, step length and slope, each by its format in `forms`; a number that is free, and a
-        slope of zero, are left out.
+        """Texts of speed, step length, slope and rough ground, each by its format in `forms`; a number that is
+        free, and a slope or height of zero, are left out.
         """
-        # a slope of 0.0 becomes None
-        numbers = zip(forms, (self.speed, self.step, self.slope or None), strict=True)
-        return [form.format(x) for form, x in numbers if x is not None]
+        numbers = zip(forms, (self.speed, self.step, self.slope, self.limits.rough), strict=True)
+        return [form.format(x) for form, x in numbers if x]

@@ -59,6 +59,8 @@ class Unknowns(NamedTuple, Generic[_T]):
     """|Theta'| at the nodes (K,) [rad/s]."""
     peak: _T
     """Largest |u_i| of the step as a share of the torque limit (1,)."""
+    rough: _T
+    """H [m], and the phases s of the landings on H and -H (3,); (0,) where no rough ground is asked for."""
 
     def split(self, x: Array) -> Unknowns[Array]:
         """Split a decision vector x (nx,) into the unknowns, in the shapes of the symbols in `self`, such as
@@ -84,7 +86,7 @@ def at_gait(
     # dq is q' at Theta' = 1 rad/s; `about`: dq_b/dTheta, alpha, phases, rates and impulse of that impact
     impact, ends = biped.impact(q, dq), np.array([h.theta_plus, h.theta_minus])
     about = dq[: biped.p], h.curve.coefficients, ends, impact.v_e, impact.impulse
-    return Unknowns(q, *about, np.array(rate), rates, np.array(peak))
+    return Unknowns(q, *about, np.array(rate), rates, np.array(peak), np.zeros(0))
 
 
 class Node(NamedTuple):
@@ -142,10 +144,19 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
 
 
-def unknowns(n: int, degree: int, nodes: int) -> Unknowns[ca.MX]:
-    """New CasADi symbols of all unknowns, for n coordinates, curves of this degree, and `nodes` Gauss nodes."""
+def split_rows(rows: ca.MX, n: int) -> Node:
+    """The `Node` of the rows that `node_function` gives for n coordinates, one column for each phase."""
+    sizes = (1, 1, n - 1, n - 1, 2, 2, n)
+    return Node(*ca.vertsplit(rows, [0, *np.cumsum(sizes).tolist()]))
+
+
+def unknowns(n: int, degree: int, nodes: int, rough: int) -> Unknowns[ca.MX]:
+    """New CasADi symbols of all unknowns, for n coordinates, curves of this degree, `nodes` Gauss nodes, and
+    `rough` unknowns of rough ground.
+    """
     p, scalar = n - 1, (1, 1)
-    sizes = (n, 1), (p, 1), (p, degree + 1), (2, 1), (n + 2, 1), (2, 1), scalar, (1, nodes), scalar
+    ends = (n, 1), (p, 1), (p, degree + 1), (2, 1), (n + 2, 1), (2, 1)
+    sizes = *ends, scalar, (1, nodes), scalar, (rough, 1)
     named = zip(Unknowns._fields, sizes, strict=True)
     return Unknowns(*(ca.MX.sym(name, *size) for name, size in named))
 
@@ -177,14 +188,14 @@ class SymbolicStep:
         self.leg = robot.leg
         self.mass, self.gravity = robot.K.mass, robot.K.gravity
         self.sigma_scale = biped.weight * self.leg * np.sqrt(self.leg / self.gravity)
-        x = self.x = unknowns(self.n, request.degree, request.nodes)
+        x = self.x = unknowns(self.n, request.degree, request.nodes, 3 if limits.rough else 0)
         # phases in [0, 1], weights of an integral over it, and matrix of the integrals from 0 to each node
         s, w, C = gauss_nodes(request.nodes)
         self.function = node_function(robot, biped.phase, request.degree, direction)
-        # relabelling q+ = R q- + r; relabel(0) is r
-        R, self.phase = ca.DM(biped.R), ca.DM(biped.phase[np.newaxis])
-        self.q_plus = R @ x.q + biped.relabel(np.zeros(self.n))
-        self.v_plus = R @ x.after[: self.n]
+        # relabel(0) is r
+        self.R, self.r = ca.DM(biped.R), biped.relabel(np.zeros(self.n))
+        self.phase = ca.DM(biped.phase[np.newaxis])
+        self.q_plus, self.v_plus = self.R @ x.q + self.r, self.R @ x.after[: self.n]
         self.node = self.at(s, x.rates)
         # |Theta'| just after impact: that at Theta'- = 1, times |Theta'-|
         first = (self.phase @ self.v_plus) * x.rate
@@ -197,8 +208,7 @@ class SymbolicStep:
         # -G_N I dTheta/ds at the nodes
         drive = -self.node.gravity * self.node.inertia * self.span
         self.work, self.until = drive @ w, drive @ C.T
-        c_b, c_N = biped.phase[: self.p], biped.phase[self.p]
-        self.dq = ca.vertcat(x.slope, (1.0 - ca.dot(c_b, x.slope)) / c_N)
+        self.dq = self.slope(x.slope)
         self.along, self.out = (ca.DM(axis[np.newaxis]) for axis in ground_axes(request.slope))
         self.pose = pose_function(robot)  # q -> (D, J_m, J_2, foot)
         self.D, self.J_m, self.J_2, self.foot = self.pose(x.q)
@@ -206,13 +216,17 @@ class SymbolicStep:
 
     def at(self, s: Array, rates: ca.MX) -> Node:
         """The model at any normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
-        count, p, x = len(s), self.p, self.x
+        count, x = len(s), self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
         # basis functions of the curves and two derivatives by s, one column for each phase
         basis = [x.T for x in basis_at(self.request.kind, self.request.degree, s)]
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
-        sizes = (1, 1, p, p, 2, 2, self.n)  # rows of each field of `Node`
-        return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))
+        return split_rows(stacked, self.n)
+
+    def slope(self, dq_b: ca.MX) -> ca.MX:
+        """dq/dTheta (n,) of all coordinates from that of the joints (p,), by c dq = 1 [rad/rad]."""
+        c_b, c_N = self.biped.phase[: self.p], self.biped.phase[self.p]
+        return ca.vertcat(dq_b, (1.0 - ca.dot(c_b, dq_b)) / c_N)
 
     def sigma(self, q: ca.MX, v: ca.MX) -> ca.MX:
         """Angular momentum about the stance foot at (q, v), each (n,) [rad, rad/s], over `sigma_scale` [1]."""
