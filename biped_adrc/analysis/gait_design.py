@@ -7,9 +7,11 @@ The result is a `DesignedGait`, gait and proof together.
 
 A family gives a gait for every speed and step length within a range. It is made of a library and two fits.
 
-    library    one gait for each pair of speed and step length, by `optimise`, with limits that leave a reserve
+    library    one gait for each pair of speed and step length, by `optimise`, with limits that leave a reserve,
+               and for rough ground where that is asked for
     curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
-    steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 4
+    steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 4,
+               and sigma^2 of the periodic walks by their mean speed, of degree 6
 
     v, L           speed [m/s] and step length [m]; a member of the family is the gait of one pair (v, L)
     Theta          phase of a gait, Theta = c q [rad]; Theta+ where a step begins, Theta- where it ends
@@ -202,12 +204,12 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
             "is its step cut short by the foot touching early?"
         )
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    effort, rough = (optimum.iterations, optimum.seconds), _on_rough_ground(biped, gait, request)
+    effort, rough = (optimum.iterations, optimum.seconds), _certify_rough(biped, gait, request)
     proof = certificate, delta2, gap, *effort, rough, optimum.level
     return DesignedGait(gait, request, optimum.objective, *proof)
 
 
-def _on_rough_ground(biped: Biped, gait: Gait, request: GaitRequest) -> RoughGround | None:
+def _certify_rough(biped: Biped, gait: Gait, request: GaitRequest) -> RoughGround | None:
     """How rough a ground a designed gait bears with ReferenceReset; None where none is asked for.
 
     Raises GaitError where that is less than asked for, with the largest height found and what stops it.

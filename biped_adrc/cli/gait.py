@@ -160,7 +160,8 @@ def _family(
     with console.status("fitting the family"):
         # the package stores it as NAME-PRESET.json: the preset is no part of the family's name
         name = path.stem.removesuffix(f"-{biped.preset}")
-        family = design_family(name, biped, gaits, {"command": command_line()})
+        asked = {"limits": kept.of(biped).in_words(), "command": command_line()}
+        family = design_family(name, biped, gaits, asked)
     family.save(path)
     console.written(path)
 

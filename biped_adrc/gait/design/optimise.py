@@ -408,7 +408,7 @@ def exact_gait(
         "curves": f"{request.curve}, degree {request.degree}, limits kept at {request.nodes} nodes",
         "asked": request.in_words(),
         "minimised": request.objective.value,
-        "limits": ", ".join(f"{k} {v}" for k, v in vars(request.limits.of(biped)).items()),
+        "limits": request.limits.of(biped).in_words(),
         "speed [m/s]": f"{step / gait.period:.6f}",
         "step length [m]": f"{step:.6f}",
     }

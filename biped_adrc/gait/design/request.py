@@ -132,6 +132,10 @@ class RobotLimits(StepLimits):
     impulse_friction: FrictionFloat
     torque: PositiveFloat
 
+    def in_words(self) -> str:
+        """The limits in one line, for the provenance."""
+        return ", ".join(f"{name} {x}" for name, x in vars(self).items())
+
 
 @dataclass(frozen=True)
 class GaitRequest(Checked, Shown):

@@ -1,5 +1,4 @@
-"""Steps over rough ground as CasADi expressions: limits of a walk whose footholds rise or fall by up to H a
-step.
+"""Steps over rough ground as CasADi expressions: limits of a walk whose footholds are up to H higher or lower.
 
 `control.reference_reset` bends the curve after each impact, up to the phase MIDDLE. Then y = sigma^2 / 2 at
 that phase goes from step to step by the map of `analysis.stride_map`, over a foothold that is higher by h:
@@ -32,7 +31,7 @@ from biped_adrc.model.planar_robot import robot_of
 MIDDLE = 0.5
 """Phase s at which y is taken: the usual share of `ReferenceReset`, where its bend ends."""
 _BEND_FROM = 0.8
-"""Largest share of MIDDLE at which a step may begin: later, `ReferenceReset` does not bend."""
+"""Largest share of MIDDLE at which a step may begin: later, `ReferenceReset` does not bend (LEAST_REACH)."""
 EARLIEST, LATEST = 0.55, 1.5
 """Phases s between which the foot lands."""
 HIGHEST = 0.1
@@ -115,8 +114,8 @@ def basis_function(k: SymbolicStep) -> ca.Function:
 
 def curve_function(k: SymbolicStep, basis: ca.Function) -> ca.Function:
     """Make the CasADi function (coefficients of the curve and its bend (p (M + 3),), (Theta+, Theta-), s) ->
-    the rows of `Node` at Theta' = 0, and at |Theta'| = 1 rad/s; one function, so that its derivatives are
-    quick.
+    the rows of `Node` at Theta' = 0, and at |Theta'| = 1 rad/s. Both are in one function, so that CasADi
+    computes what they share once.
     """
     M = k.request.degree + 2  # a_0, a_1 are two coefficients more
     alpha, theta, s = ca.SX.sym("a", k.p * (M + 1)), ca.SX.sym("t", 2), ca.SX.sym("s")
@@ -175,7 +174,8 @@ class RoughSteps:
         A = ca.blockcat([[D, J_m.T, -J_2.T], [J_m, k.mass * one, -one], [J_2, one, zero]])
         jump = ca.solve(A, ca.vertcat(ca.DM.zeros(n + 2), -J_2 @ dq))
         q, v = k.R @ at.q + k.r, k.R @ (dq + jump[:n])
-        # the bend takes away the error and its slope where the step begins
+        # the bend takes away the error and its slope where the step begins, as `control.reference_reset`, which
+        # stands above this room
         start, rate = (k.phase @ q - x.theta[0]) / k.span, k.phase @ v
         (b, db, _), z = self.basis(start), 1.0 - start / MIDDLE
         e = (q[:p] - x.alpha @ b[:-2]) / z**3

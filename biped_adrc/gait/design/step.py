@@ -169,8 +169,8 @@ class SymbolicStep:
     (1, 1) = int -G_N I dTheta over the step, until (1, K): the same up to each node [kg^2 m^4/s^2]. dt (1, K):
     time of each node's share of the step, duration: their sum [s]. length: distance of the feet along the
     ground at q- [m]. along, out (1, 2): unit vectors of the ground and of its normal. dq (n,): dq/dTheta before
-    impact. q_plus, v_plus (n,): state after the impact at Theta'- = 1, legs relabelled. D, J_m, J_2, foot:
-    inertia matrix, Jacobians of m p_com and of the swing foot, and its place, at q-.
+    impact. R, r: relabelling q+ = R q- + r. q_plus, v_plus (n,): state after the impact at Theta'- = 1. D, J_m,
+    J_2, foot: inertia matrix, Jacobians of m p_com and of the swing foot, and its place, at q-.
 
     Constraints are made dimensionless by the leg length, the weight, and sigma_scale = m g l sqrt(l / g).
     """
@@ -192,7 +192,6 @@ class SymbolicStep:
         # phases in [0, 1], weights of an integral over it, and matrix of the integrals from 0 to each node
         s, w, C = gauss_nodes(request.nodes)
         self.function = node_function(robot, biped.phase, request.degree, direction)
-        # relabel(0) is r
         self.R, self.r = ca.DM(biped.R), biped.relabel(np.zeros(self.n))
         self.phase = ca.DM(biped.phase[np.newaxis])
         self.q_plus, self.v_plus = self.R @ x.q + self.r, self.R @ x.after[: self.n]
