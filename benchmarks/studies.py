@@ -99,7 +99,7 @@ def search(budget: int, walks: int) -> Study:
             "name": "m = 1",
             "base": {"controller.name": "LESO", "run.impacts": 10, "pushes.0.step": 3, **PUSH},
             "search": {
-                "budget": budget,
+                "budget": budget // len(ranges),  # for each variable
                 "generation": 20,
                 "finalists": 1,
                 "seed": 1,
@@ -142,7 +142,7 @@ def searches(budget: int, walks: int) -> Table:
         table.missing("tune")
         return table
     with ThreadPoolExecutor(2) as executor:
-        searched(search(4, 2), executor)  # whatever is compiled once
+        searched(search(6, 2), executor)  # whatever is compiled once
     asked = search(budget, walks)
     for name, workers in (("2 threads", partial(ThreadPoolExecutor, 2)), ("2 processes", forked)):
         records: list[PlainValues] = []

@@ -74,6 +74,8 @@ class RobotAndGait:
     """None for a robot with motors."""
     laws: Memory = field(default_factory=Memory, repr=False)
     """Controllers that were made already, by the values of the scenario that decide them."""
+    plants: Memory = field(default_factory=Memory, repr=False)
+    """Robots with model errors that were made already: the candidates of a search walk the same ones."""
 
     @classmethod
     def of(cls, s: Scenario) -> RobotAndGait:
@@ -178,7 +180,8 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     if scene.cycle is not None:
         return _passive(s, scene, scene.cycle)
     gait = scene.walked
-    plant = plant_of(s, biped)
+    key = s.errors.model_dump_json(), drawn(s, "model")
+    plant = scene.plants.found(key, lambda: plant_of(s, biped))
     width, hardware = s.errors.impact_width, s.hardware
     # relative errors (n,) [1] of the rates after impact; () without an error of the impact map
     gain = impact_error(drawn(s, "impact"), width, biped.n).tolist() if width else ()

@@ -28,10 +28,11 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
+from biped_adrc.studies.proposals import WalkAll, optuna_library, searched
 from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Runner, StudyProgress
-from biped_adrc.studies.search import Candidate, Search, Walks, optuna_library, searched
+from biped_adrc.studies.search import Candidate, Search, Walks
 from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, read_study, walk_names
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
@@ -96,7 +97,8 @@ def study(
         # walks the candidates of the search
         walker = _Searched(study_, study_.search, runner, undrawn)
         # for each case a Choice, or a text that says why there is none
-        result = {name: walker.choice(name) for name in study_.cases or ("",)}
+        cases = enumerate(study_.cases or ("",))
+        result = {name: walker.choice(name, study_.search.seed + i) for i, name in cases}
         choices = {name: x for name, x in result.items() if isinstance(x, Choice)}
         failures = tuple(x for x in result.values() if isinstance(x, str))
         if not choices:
@@ -121,9 +123,9 @@ class _Searched:
         self.study, self.search, self.runner, self.place = study, search, runner, 0
         self.undrawn = undrawn
 
-    def choice(self, case: str) -> Choice | str:
+    def choice(self, case: str, seed: int) -> Choice | str:
         """Search a case ("" for the base alone), and choose among its best few candidates by their walks on the
-        second set; returns a text with the reason where no candidate keeps all limits.
+        second set; returns a text with the reason where no candidate keeps all limits. seed: of the sampler.
         """
         search, base = self.search, self.study.values_of(case)
         # numbers of the candidates that were the best so far, one after the other
@@ -140,7 +142,7 @@ class _Searched:
         def walk(kind: str, found: Sequence[Candidate]) -> list[Walks]:
             return self.walk(kind, [(c.number, c.values, walk_names(case=case)) for c in found])
 
-        result = searched(search, base, partial(walk, "search"), report)
+        result, gain, ends = searched(search, base, partial(walk, "search"), report, seed)
         failure = self.failure(result, case, "search")
         if not failure:
             few = _few(search, result)  # the finalists, and the case itself
@@ -149,9 +151,25 @@ class _Searched:
             again = [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
             failure = self.failure(again, case, "choice")
         if not failure:
-            return Choice(tuple(result), tuple(search.ranked(again)))
+            again = search.ranked(again)
+            stop = self.stop(base, again[0], len(result), partial(walk, "choice"))
+            stop = ", ".join(f"not tuned: {n} at an end of its range" for n in ends) or stop
+            last = f"; the last doubling gained {gain:.2%}" if search.doublings else ""
+            return Choice(tuple(result), tuple(again), stop + last)
         self.runner.tell(failure)
         return failure
+
+    def stop(self, base: Values, c: Candidate, number: int, walk: WalkAll) -> str:
+        """What stopped the search at the chosen candidate, by the walks of the settings beside it.
+
+        number: of the first of them. walk: walks candidates on the second set.
+        """
+        beside = self.search.beside(base, c)
+        numbered = enumerate(beside.values(), number)
+        some = [self.search.judged(base, i, chosen) for i, chosen in numbered]
+        pairs = zip(some, walk(some), strict=True)
+        judged = [self.search.judged(base, x.number, x.chosen, walks) for x, walks in pairs]
+        return self.search.stop(c, dict(zip(beside, judged, strict=True)))
 
     def test(self, choices: Mapping[str, Choice]) -> None:
         """Walk settings on the test set: what was chosen for each case, and each case as it was.

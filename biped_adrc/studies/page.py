@@ -68,6 +68,7 @@ def choices(found: Results) -> dict[str, str]:
     return {
         name or "chosen": f"candidate {x.selected[0].number}, "
         + ", ".join(f"{k} = {as_text(x.values[k])}" for k in variables if k in x.values)
+        + (x.stop and f"; {x.stop}")
         for name, x in found.choices.items()
     }
 

@@ -196,6 +196,8 @@ class Choice(NamedTuple):
     selected: tuple[Candidate, ...]
     """The candidates that were walked on the second set ("choice"), as judged there, best first: the first one
     was chosen."""
+    stop: str = ""
+    """What stopped the search, in words."""
 
     @property
     def values(self) -> dict[str, Any]:

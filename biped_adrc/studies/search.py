@@ -9,7 +9,9 @@ the same budget. A condition is a named set of other values, under which each is
 with other values of the variables: these are its setting. A row is the results of one walk by column. Counted
 in candidates are
 
-- budget: how many of a case are walked in the search, the case itself among them;
+- budget: how many of a case are walked in the first round of its search, for each variable that has an effect
+  there; the case itself is one of them;
+- doublings: most rounds after it, each of as many as all before it;
 - generation: how many are proposed together, before any of them is walked;
 - finalists: how many of the best are walked on the second set.
 
@@ -28,33 +30,28 @@ Candidates are searched on the first set of walks. On the second the finalists a
 again, and one is chosen; on the third the chosen one and the case are walked once. A measure that was minimised
 over noise is too good on the walks it was minimised on: no two sets share a seed.
 
-Candidates are proposed by Optuna's samplers in whole generations, after all earlier ones have been judged, in
-this process alone, and the sampler is told the results in a fixed order: what is proposed depends on the seed
-and on judged candidates, and neither on workers nor on kills. The first part of the budget is proposed by TPE
-(Bergstra et al., NeurIPS 2011), which takes ranges, whole numbers and choices together; the rest by CMA-ES
-(Hansen, Ostermeier, Evolutionary Computation 9(2), 2001) from the best candidates so far (Nomura et al., AAAI
-2021), with the choices of the best one. Both use only the order of the candidates, so each is told to them as
-one number, less for a better one: the objective, with its sign changed where more is better; or, for a
-candidate that misses limits, a number above every objective, larger the more it misses.
-
 Some columns need no walk (`measure`). A candidate that misses a limit on one of them is judged and not walked,
-and does not count in the budget. The case itself is candidate number 0.
+and does not count in the budget. The case itself is candidate number 0. How candidates are proposed, and when
+a search ends, is in `proposals`.
 """
 
 from __future__ import annotations
 
-import itertools
-import warnings
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import BeforeValidator, Field
 
-from biped_adrc.core.errors import optional
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.build import Values
 from biped_adrc.studies.measure import Aim, Limit, Measure, Row, numbers_without_walk
 from biped_adrc.studies.space import Section, Seeds, Span, by_entry, read_list, read_range, table
+
+ENOUGH = 0.02
+"""The objective has changed if it did by more than this share of itself [1]."""
+STEPS = {"down": -0.1, "up": 0.1}
+"""By which shares of its range a variable of the chosen candidate is moved, to see what stopped the search."""
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: for each the name of its condition, and its row of results."""
@@ -132,27 +129,36 @@ class Search(Section):
     """What a candidate has to keep."""
     walks: WalkSets
     budget: int = Field(ge=1)
-    """Candidates of each case that are walked on the first set, the setting of the case among them."""
+    """Candidates of a case that are walked on the first set, for each variable that has an effect in it."""
+    doublings: int = Field(default=0, ge=0, le=8)
+    """Most times that they are doubled, while that gains ENOUGH or a variable stands at an end of its range."""
     generation: int = Field(ge=1)
     """Candidates that are proposed together, without knowing of each other's walks."""
     finalists: int = Field(default=5, ge=1)
     """Candidates that are walked on the second set."""
     seed: int = Field(default=0, ge=0)
-    """Seed of the sampler."""
+    """Seed of the sampler for the first case; the next one has this + 1, so that equal cases are several
+    searches."""
 
     @property
     def measures(self) -> tuple[Measure, ...]:
         """The objective, then the limits."""
         return (self.objective, *self.limits)
 
-    def count(self, sets: Mapping[str, int]) -> int:
-        """Largest number of walks of the search of one case. sets: "search", "choice", "test" -> number of
-        walks of one candidate in this set.
+    def first(self, values: Values) -> int:
+        """The number of candidates in the first round of a case with these values."""
+        return self.budget * max(1, len(self.acting(values)))
+
+    def count(self, sets: Mapping[str, int], values: Values) -> int:
+        """Largest number of walks of the search of a case with these values. sets: "search", "choice", "test"
+        -> number of walks of one candidate in this set.
 
         The case itself is walked beside the finalists, and on the test set beside the chosen one: + 1, and 2.
+        Two settings beside the chosen one are walked for each variable.
         """
-        again = (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
-        return self.budget * sets["search"] + again
+        beside = self.finalists + 1 + 2 * len(self.acting(values))
+        again = beside * sets["choice"] + 2 * sets["test"]
+        return (self.first(values) << self.doublings) * sets["search"] + again
 
     def acting(self, values: Values) -> dict[str, Variable]:
         """The variables, by name, that may have an effect in a case with these values, whatever values the
@@ -200,6 +206,41 @@ class Search(Section):
         walked, sign = [c for c in found if c.walked], self.objective.sign
         return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
 
+    def gained(self, before: Candidate, after: Candidate) -> float:
+        """The share [1] of the objective by which a candidate is better than another one, negative where it is
+        worse; infinite where one of them misses a limit, or the objective is 0 or infinite.
+        """
+        x, y, fine = before.objective, after.objective, before.feasible and after.feasible
+        return (
+            self.objective.sign * (x - y) / abs(x) if fine and x and abs(x) < math.inf else math.inf
+        )
+
+    def beside(self, base: Values, c: Candidate) -> dict[str, dict[str, Any]]:
+        """Settings beside that of a candidate, each as its values of the variables: one variable that is a
+        number moved by STEP of its range, down or up. The keys say which, as "controller.K_p up".
+        """
+        ranges = {n: v.range for n, v in self.acting(base).items() if v.range and n in c.chosen}
+        moves = ((n, r, word, w) for n, r in ranges.items() for word, w in STEPS.items())
+        beside = {f"{n} {word}": (n, r.moved(c.chosen[n], w)) for n, r, word, w in moves}
+        return {key: c.chosen | {n: x} for key, (n, x) in beside.items() if x != c.chosen[n]}
+
+    def stop(self, c: Candidate, beside: Mapping[str, Candidate]) -> str:
+        """What stopped the search at a candidate, in words. beside: the settings of `beside`, walked.
+
+        A step misses a limit, makes the objective worse, or changes it by less than ENOUGH, which is flat. A
+        step that makes it better by more says that the candidate is not tuned.
+        """
+        gains = {k: self.gained(c, x) for k, x in beside.items() if x.feasible}
+        if better := [f"{k} by {x:.0%}" for k, x in gains.items() if x >= ENOUGH]:
+            return f"not tuned: better with {', '.join(better)}"
+        words = {
+            m.sentence: [k for k, x in beside.items() if x.missed[i] > 0.0]
+            for i, m in enumerate(self.limits)
+        }
+        words["the objective"] = [k for k, x in gains.items() if x <= -ENOUGH]
+        words["nothing, as it is flat"] = [k for k, x in gains.items() if abs(x) < ENOUGH]
+        return "; ".join(f"stopped by {k}: {', '.join(x)}" for k, x in words.items() if x)
+
     def some(self, values: Values) -> Iterator[dict[str, Any]]:
         """Yield settings that stand for all in a case with these values: the middle of all variables, and each
         choice beside the middle of the others; each as the values of those variables that have an effect.
@@ -235,144 +276,3 @@ class Candidate(NamedTuple):
     def feasible(self) -> bool:
         """Whether the candidate was walked and keeps all limits."""
         return self.walked and not any(self.missed)
-
-
-FIRST_PART = 0.4
-"""The share of the budget that TPE proposes at least."""
-_SMALLEST = 10
-"""Least number of candidates of TPE before CMA-ES takes over, which begins from the best tenth of them."""
-_ASKED = 8
-"""Most proposals for each place of a generation, since some miss a limit that is known without a walk."""
-_MISSED = 1e30
-"""The sampler minimises; a candidate that misses limits has this number times 1 + the sum of its misses, above
-every objective."""
-
-WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
-"""A function that walks candidates, and returns their walks in the same order."""
-
-
-def optuna_library() -> Any:
-    """Import Optuna, and let it print warnings only. Raises InputError where it or cmaes is missing."""
-    with optional("study", "a search needs Optuna and cmaes, which are not installed"):
-        import cmaes  # noqa: F401
-        import optuna
-    optuna.logging.set_verbosity(optuna.logging.WARNING)
-    warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
-    return optuna
-
-
-def searched(
-    search: Search, base: Values, walk: WalkAll, report: Callable[[Candidate], None]
-) -> list[Candidate]:
-    """Search a case: returns all its candidates by number; number 0 is the case itself, with the values `base`.
-
-    walk: walks the candidates of a generation. report: called with the best candidate after each generation.
-    The search ends with the budget, or when a whole round of proposals misses limits that are known without a
-    walk. Raises InputError where Optuna is missing.
-    """
-    proposals = _Proposals(optuna_library(), search, base)
-    result: list[Candidate] = []
-    numbers = itertools.count()
-    while (left := search.budget - sum(c.walked for c in result)) > 0:
-        # those to be walked in this generation, and all that are judged in it
-        batch, new = list[Candidate](), list[Candidate]()
-        for number in itertools.islice(numbers, _ASKED * search.generation):
-            # without walks: judged by limits that need none; number 0 is the case itself, with no other values
-            c = search.judged(base, number, proposals.ask(number) if number else {})
-            # the case itself is walked in any event, as it is what the others are compared with
-            if number == 0 or not any(c.missed):
-                batch.append(c)
-            else:
-                new.append(c)
-                proposals.tell(c)
-            if len(batch) == min(left, search.generation):
-                break
-        if not batch:  # all of _ASKED proposals for each place missed limits: the search ends
-            break
-        for c, walks in zip(batch, walk(batch), strict=True):
-            new.append(search.judged(base, c.number, c.chosen, walks))
-            proposals.tell(new[-1])
-        result += sorted(new, key=lambda c: c.number)
-        report(search.ranked(result)[0])  # the best one so far
-        proposals.refine(result)  # to CMA-ES, when TPE's part is spent
-    return result
-
-
-class _Proposals:
-    """Optuna's proposals for one case: first those of its sampler TPE, then (`refine`) those of CMA-ES.
-
-    space: variable -> Optuna's distribution from which its values are proposed. fixed: values of the variables
-    that are not proposed any more. open: Optuna's trials that are not judged yet, by number of the candidate.
-    study: Optuna's, which proposes values and is told how good they were. refining: whether TPE's part is over.
-    """
-
-    def __init__(self, optuna: Any, search: Search, base: Values) -> None:
-        """optuna: the module. base: values of the case, by which variables without an effect are left out."""
-        self.optuna, self.search = optuna, search
-        self.space = {n: self._distribution(v) for n, v in search.acting(base).items()}
-        self.fixed: dict[str, Any] = {}
-        self.open: dict[int, Any] = {}
-        self.refining = False
-        # the first 10 are random
-        sampler = optuna.samplers.TPESampler(seed=search.seed, n_startup_trials=10)
-        self.study = optuna.create_study(sampler=sampler)
-
-    def _distribution(self, variable: Variable) -> Any:
-        """The distribution of Optuna for a variable: of its choices, integers, or floats on its scale."""
-        of, r = self.optuna.distributions, variable.range
-        if r is None:
-            return of.CategoricalDistribution(variable.choices)
-        if r.whole:
-            return of.IntDistribution(int(r.low), int(r.high))
-        return of.FloatDistribution(r.low, r.high, log=r.scale == "log")
-
-    def ask(self, number: int) -> dict[str, Any]:
-        """Propose values, by name, of all variables that may have an effect for the candidate `number`."""
-        trial = self.open[number] = self.study.ask(self.space)
-        return {**self.fixed, **trial.params}
-
-    def tell(self, c: Candidate) -> None:
-        """Tell Optuna how a candidate was judged; nothing for number 0, the case itself, which it did not
-        propose.
-        """
-        if c.number in self.open:
-            self.study.tell(self.open.pop(c.number), self.score(c))
-
-    def score(self, c: Candidate) -> float:
-        """The number that Optuna minimises: the objective, with its sign changed where more is better; for
-        missed limits a number above all of these, larger with what is missed, and by one miss more if no walk
-        was spent on it.
-        """
-        if any(c.missed) or not c.walked:
-            # _MISSED, above every objective
-            return _MISSED * (1.0 + sum(c.missed) + (not c.walked))
-        return min(self.search.objective.sign * c.objective, _MISSED)
-
-    def refine(self, found: Sequence[Candidate]) -> None:
-        """Change from TPE to CMA-ES, once TPE's part of the budget is spent; later calls do nothing.
-
-        CMA-ES needs two variables with ranges and generations of four; else TPE goes on. It keeps the choices
-        of the best candidate (`fixed`).
-        """
-        # walked candidates, best first, without the case itself, number 0
-        # TPE's part: the share FIRST_PART of the budget, and at least _SMALLEST of them
-        best = [c for c in self.search.ranked(found) if c.number]
-        if self.refining or len(best) < max(_SMALLEST, FIRST_PART * self.search.budget):
-            return
-        self.refining = True
-        # CMA-ES takes ranges alone, and of these the ones that have an effect beside the best one's choices
-        acting, variables = best[0].values, self.search.variables
-        space = {n: x for n, x in self.space.items() if n in acting and variables[n].range}
-        if len(space) < 2 or self.search.generation < 4:
-            return
-        # the candidates so far, by their values of these variables, become the trials from which CMA-ES begins
-        create, scores = self.optuna.trial.create_trial, [(c.chosen, self.score(c)) for c in best]
-        trials = [
-            create(params={n: chosen[n] for n in space}, distributions=space, value=score)
-            for chosen, score in scores
-        ]
-        self.space, self.fixed = space, {n: x for n, x in best[0].chosen.items() if n not in space}
-        seed, size = self.search.seed, self.search.generation
-        sampler = self.optuna.samplers.CmaEsSampler(seed=seed, popsize=size, source_trials=trials)
-        self.study = self.optuna.create_study(sampler=sampler)
-        self.study.add_trials(trials)

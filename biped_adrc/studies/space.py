@@ -22,6 +22,8 @@ from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 
+EDGE = 0.05
+"""A value stands at an end of a range that it is nearer to than this share of the width, on its scale."""
 _MOST = 1_000_000
 """Most levels of a field, samples, and seeds."""
 
@@ -90,6 +92,36 @@ class Span(Section):
         if self.scale == "log":
             return self.low * (self.high / self.low) ** w
         return self.low + (self.high - self.low) * w
+
+    def of(self, x: float) -> float:
+        """w of a value of the interval: 0 at low, 1 at high."""
+        if self.scale == "log":
+            return math.log(x / self.low) / math.log(self.high / self.low)
+        return (x - self.low) / (self.high - self.low)
+
+    def moved(self, x: float, w: float) -> float:
+        """x moved by the share w of the width, on the scale of the interval, perhaps out of it; an interval
+        from 0 on is not left downwards, and a whole number moves by 1 at least.
+        """
+        if self.scale == "log":
+            return x * (self.high / self.low) ** w
+        by = w * (self.high - self.low)
+        by = math.copysign(max(1.0, round(abs(by))), w) if self.whole else by
+        return max(x + by, 0.0) if self.low >= 0.0 else x + by
+
+    def beyond(self, x: float) -> Span | None:
+        """The interval with the end near which x stands moved outwards by its width; None where x stands at
+        none, or at 0, which stays an end.
+        """
+        w, low, high = self.of(x), self.low, self.high
+        log = self.scale == "log"
+        if w > 1.0 - EDGE:
+            return self.model_copy(update={"high": high * high / low if log else 2.0 * high - low})
+        if w < EDGE and low != 0.0:
+            down = low * low / high if log else 2.0 * low - high
+            # an interval above 0 goes down to 0 at most
+            return self.model_copy(update={"low": max(down, 0.0) if low > 0.0 else down})
+        return None
 
 
 class Levels(Span):

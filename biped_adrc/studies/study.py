@@ -171,7 +171,8 @@ class Study(Section):
         if self.search is not None:
             # kind of the set -> number of walks of one candidate
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
-            return max(len(self.cases), 1) * self.search.count(sets)
+            every = (self.values_of(name) for name in self.cases or ("",))
+            return sum(self.search.count(sets, values) for values in every)
         samples = 1 if self.draw is None else self.draw.count
         # named: {"case": .., "condition": ..}; each has as many walks as seeds, one if undrawn or without seeds
         walks = sum(len(self.seeded(self.seeds, named, undrawn)) for _, named in self.sets())

@@ -102,7 +102,7 @@ def tables(seeds=([0], [1], [2]), base_of=(), **search):
     spans = {"k1": (1.0, 100.0), "k2": (1.0, 100.0), "l1": (0.05, 2.0), "l2": (0.1, 10.0)}
     log = {f"controller.{k}": {"from": a, "to": b, "scale": "log"} for k, (a, b) in spans.items()}
     walks = {k: {"seeds": x} for k, x in zip(("search", "choice", "test"), seeds, strict=True)}
-    given = {"budget": 200, "generation": 10, "seed": 1, "objective": {"column": "rms_error"}}
+    given = {"budget": 50, "generation": 10, "seed": 1, "objective": {"column": "rms_error"}}
     base = {"controller.k1": 5.0, "controller.k2": 5.0, "controller.l1": 0.5, "controller.l2": 1.0}
     search = {"variables": log, "walks": walks, **given, **search}
     return {"name": "linear plant", "base": {**base, **dict(base_of)}, "search": search}
@@ -112,7 +112,7 @@ def slowly(kind, pause):
     """The study of a kind with a pause in each row, and the function of its rows."""
     base = {"controller.pause": pause}
     if kind == "costs":
-        return tables(base_of=base, budget=40, generation=8), costs
+        return tables(base_of=base, budget=10, generation=8), costs
     return {**ROWS, "base": base}, rows
 
 

@@ -21,7 +21,8 @@ from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
 from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.measure import Aim, Limit, numbers_without_walk
-from biped_adrc.studies.search import Candidate, searched
+from biped_adrc.studies.proposals import searched
+from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.study import read_study
 from tests.commands import command
 
@@ -36,7 +37,7 @@ def walked(asked):
 def found_by(**search):
     """The search with these settings, and the candidates that it tried, in order."""
     study = read_study(plants.tables(**search))
-    return study.search, searched(study.search, study.base, walked, lambda c: None)
+    return study.search, searched(study.search, study.base, walked, lambda c: None).candidates
 
 
 def test_the_optimum_of_riccati_is_reached():
@@ -53,11 +54,60 @@ def test_the_optimum_of_riccati_is_reached():
     assert np.mean(missed) < 5e-4
 
 
-def test_any_workers_give_the_same_bits(tmp_path):
-    """One process, two, and threads have the same rows and choices. Walks: 30 of the search, those of the
-    second set, and two of the test: the choice, and the case itself. Another seed gives other candidates.
+def test_an_end_at_which_the_best_stands_is_moved_until_the_optimum_lies_inside():
+    """k1 in 1 to 2 excludes its optimum. Without a doubling k1 stands at an end; with doublings the end goes to
+    4, 8, .., and the optimum is reached to 2 %. Each round has as many candidates as all before it.
     """
-    tables = plants.tables(budget=30, generation=8)
+    k1 = {"from": 1.0, "to": 2.0, "scale": "log"}
+    tables = plants.tables(budget=50)
+    tables["search"]["variables"]["controller.k1"] = k1
+    search, base = read_study(tables).search, tables["base"]
+    assert searched(search, base, walked, lambda c: None).ends == ("controller.k1",)
+    more = search.model_copy(update={"doublings": 3})
+    found, gain, ends = searched(more, base, walked, lambda c: None)
+    best = more.ranked(found)[0]
+    assert best.chosen["controller.k1"] > 2.0
+    assert best.objective < 1.02 * plants.optimum()
+    assert (gain < 0.02, ends) == (True, ())
+    assert len(found) in {200 << doubled for doubled in range(4)}
+
+
+def test_a_search_says_what_stopped_it(tmp_path):
+    """With peak_error = k1 at most 0.2 of its optimal value a step up of k1 misses that limit. A gain that the
+    cost does not know is flat. A range that ends before the optimum leaves the search not tuned.
+    """
+    search, found = found_by()
+    k1 = search.ranked(found)[0].chosen["controller.k1"]
+    limits = [{"column": "peak_error", "most": 0.2 * k1, "over": "worst"}]
+    tables = plants.tables(budget=50, limits=limits, doublings=1)
+    tables["search"]["variables"]["controller.free"] = {"from": 1.0, "to": 9.0}
+    (choice,) = plants.carried(tables, tmp_path / "limit", plants.costs).choices.values()
+    assert re.search(r"stopped by worst peak_error at most [\d.]+: controller.k1 up;", choice.stop)
+    assert re.search(
+        r"nothing, as it is flat: .*controller.free down, controller.free up", choice.stop
+    )
+    assert re.search(r"stopped by the objective: .*controller.k1 down", choice.stop)
+    assert re.search(r"; the last doubling gained [\d.]+%$", choice.stop)
+    tables = plants.tables(budget=50)
+    tables["search"]["variables"]["controller.k1"] = {"from": 1.0, "to": 2.0, "scale": "log"}
+    (choice,) = plants.carried(tables, tmp_path / "end", plants.costs).choices.values()
+    assert choice.stop == "not tuned: controller.k1 at an end of its range"
+
+
+def test_equal_cases_are_searches_with_other_seeds(tmp_path):
+    """Two cases of the same values have other candidates: the second one's sampler has the seed after."""
+    tables = plants.tables(budget=3, generation=4)
+    tables["cases"] = {"#1": {}, "#2": {}}
+    one, two = plants.carried(tables, tmp_path, plants.costs).choices.values()
+    assert [c.chosen for c in one.candidates] != [c.chosen for c in two.candidates]
+
+
+def test_any_workers_give_the_same_bits(tmp_path):
+    """One process, two, and threads have the same rows and choices. Walks: 32 of the search, 8 for each of
+    4 gains; those of the second set, with 8 settings beside the choice; and two of the test, the choice and the
+    case itself. Another seed gives other candidates.
+    """
+    tables = plants.tables(budget=8, generation=8)
     with ThreadPoolExecutor(3) as pool:
         one, two, three = (
             ba.study(tables, tmp_path / f"{i}", workers, function=plants.costs)
@@ -66,13 +116,14 @@ def test_any_workers_give_the_same_bits(tmp_path):
     assert list(one.results()) == list(two.results()) == list(three.results())
     assert one.choices == two.choices == three.choices
     (choice,) = one.choices.values()
-    assert len(list(one.results())) == 30 + len(choice.selected) + 2
-    _, other = found_by(budget=30, generation=8, seed=2)
+    assert len(list(one.results())) == 32 + len(choice.selected) + 8 + 2
+    _, other = found_by(budget=8, generation=8, seed=2)
     assert other != [*choice.candidates]
 
 
 def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choice(tmp_path):
-    """Seeds 0, 1 and 2 are those of search, choice and test: 6 candidates, then the finalists, then the choice
+    """Seeds 0, 1 and 2 are those of search, choice and test: 8 candidates, then the finalists, and
+    the settings beside the choice, then the choice
     and the case itself (candidate 0). Sets that share a seed are refused.
     """
     seen = []
@@ -81,10 +132,10 @@ def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choic
         seen.extend(record["run.seed"] for record in records)
         return plants.costs(records)
 
-    tables = plants.tables(budget=6, generation=3, finalists=2)
+    tables = plants.tables(budget=2, generation=3, finalists=2)
     found = plants.carried(tables, tmp_path, rows)
     (choice,) = found.choices.values()
-    assert seen == [0] * 6 + [1] * len(choice.selected) + [2] * 2
+    assert seen == [0] * 8 + [1] * (len(choice.selected) + 8) + [2] * 2
     assert 0 in {c.number for c in choice.selected}
     for seeds in (([0, 1], [1], [2]), ([0], [2], [2]), ([2], [1], {"from": 0, "count": 9})):
         with pytest.raises(InputError, match=r"search\.walks: .* share the seeds \["):
@@ -93,7 +144,7 @@ def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choic
 
 def test_a_candidate_is_told_when_it_becomes_the_best_and_not_again(tmp_path):
     """Notes name candidates in the order of their numbers, each once, and the last one is the best."""
-    notes, tables = [], plants.tables(budget=9, generation=3)
+    notes, tables = [], plants.tables(budget=3, generation=3)
     found = plants.carried(tables, tmp_path, plants.costs, progress=lambda x: notes.append(x.note))
     (choice,), told = found.choices.values(), [x for x in notes if ": candidate " in x]
     numbers = [int(x.partition(": candidate ")[2].partition(",")[0]) for x in told]
@@ -106,7 +157,7 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
     """`when` makes l2 a variable of the case with run.impacts = 3 alone: the other case has no candidate with
     it. Each case has its choice, a line before and after, and a file.
     """
-    tables = plants.tables(budget=12, generation=4)
+    tables = plants.tables(budget=3, generation=4)
     tables["cases"] = {"narrow": {"run.impacts": 2}, "all": {"run.impacts": 3}}
     tables["search"]["variables"]["controller.l2"] |= {"when": {"run.impacts": 3}}
     found = plants.carried(tables, tmp_path, plants.costs)
@@ -121,7 +172,7 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
 
 def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     """Bandwidth and order act under LESO alone, run.impacts with order 2 or 3 alone: `values` has only what
-    acts, in a chain of two `when`. The objective is the order here, 9 without one, so that the best of 30 has
+    acts, in a chain of two `when`. The objective is the order here, 9 without one, so that the best of 32 has
     order 1.
     """
     when = {"when": {"controller.name": "LESO"}}
@@ -141,13 +192,13 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     assert [*search.values({}, chosen | {order: 4})] == [*chosen][:3]
     # some: the middle of all variables, then each choice beside it; a study is rehearsed with them
     assert list(search.some({})) == [npd, npd, middle]
-    # 3 candidates; 5 finalists and the case; the choice and the case: times the walks of each set
-    assert search.count({"search": 2, "choice": 3, "test": 5}) == 3 * 2 + 6 * 3 + 2 * 5
+    # 3 candidates for each of 4 variables; 5 finalists, the case, and 8 beside; the choice and the case
+    assert search.count({"search": 2, "choice": 3, "test": 5}, {}) == 12 * 2 + 14 * 3 + 2 * 5
     # walks(x): a walk that ended well, with the objective x
     walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
-    search = search.model_copy(update={"budget": 30, "generation": 5, "walks": search.walks})
-    found = searched(search, {}, walk, lambda c: None)
-    assert len(found) == 30
+    search = search.model_copy(update={"budget": 8, "generation": 5, "walks": search.walks})
+    found = searched(search, {}, walk, lambda c: None).candidates
+    assert len(found) == 32
     # [0] is the case itself, for which nothing was chosen
     assert {type(c.chosen[order]) for c in found[1:]} == {int}
     assert {c.chosen[order] for c in found[1:]} == {1, 2, 3, 4}
@@ -157,21 +208,21 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
 
 def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypatch):
     """The ripple, known without a walk, is replaced by k1: candidates above 20 are not walked, and the budget
-    of 30 counts walks alone. With a limit that none keeps, only the case is walked, and a generation asks 8
+    of 32 counts walks alone. With a limit that none keeps, only the case is walked, and a generation asks 8
     times for each of its 10.
     """
     known = lambda _, values: {"ripple": values["controller.k1"]}  # noqa: E731
     monkeypatch.setattr(search_room, "numbers_without_walk", known)
     limits = [{"column": "ripple", "most": 20.0, "over": "worst"}]
-    search, found = found_by(budget=30, generation=10, limits=limits)
-    assert sum(c.walked for c in found) == 30
+    search, found = found_by(budget=8, generation=10, limits=limits)
+    assert sum(c.walked for c in found) == 32
     excluded = [c for c in found if not c.walked]
     assert excluded
     assert all((c.chosen["controller.k1"] > 20.0) is not c.walked for c in found if c.number)
     assert [c.number for c in found] == list(range(len(found)))
     assert all(c.walked for c in search.ranked(found))
     limits[0]["most"] = 0.1  # which none keeps: a generation asks 8 times for each of its 10
-    _, found = found_by(budget=30, generation=10, limits=limits)
+    _, found = found_by(budget=8, generation=10, limits=limits)
     assert ([c.number for c in found if c.walked], len(found)) == ([0], 80)
 
 
@@ -180,7 +231,7 @@ def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path
     Without any case that keeps it the study fails; beside one that does, it is a failure among the results.
     """
     limits = [{"column": "peak_error", "most": 0.5, "over": "median"}]
-    tables = plants.tables(budget=8, generation=4, limits=limits)
+    tables = plants.tables(budget=2, generation=4, limits=limits)
     message = r"median peak_error at most 0.5: missed by 8.*nearest is"  # by all 8 candidates
     with pytest.raises(InputError, match=message):
         plants.carried(tables, tmp_path / "none", plants.costs)
@@ -285,7 +336,7 @@ walks = { search = { seeds = [0] }, choice = { seeds = [1] }, test = { seeds = [
 
 
 def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
-    """The search makes at most 7 walks: 3 candidates, the finalist and the case itself on the second set, two
+    """The search makes at most 9 walks: 3 candidates, the finalist and the case itself on the second set, two
     on the third.
 
     The objectives are those of a plain study of the same gains.
@@ -295,7 +346,7 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
 
     line = ["study", path, "--out", out, "--workers", "1"]
     dry = command(*line, "--dry-run").splitlines()
-    assert dry[0] == "walks: at most 7 walks"
+    assert dry[0] == "walks: at most 9 walks"
     assert dry[1] == "Walked once, as nothing that acts is drawn from the seed: walks."
     command(*line)
     # errors, their ratio, and the path of the search
