@@ -25,7 +25,6 @@ from types import NoneType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from biped_adrc.analysis.stride_map import FAR, SIDE, StrideMap
@@ -35,7 +34,7 @@ from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown, columns
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Flags
 from biped_adrc.gait.constraint import VirtualConstraint, continued
 from biped_adrc.gait.design.rough import HIGHEST
 from biped_adrc.gait.gait import Gait
@@ -203,7 +202,7 @@ class RoughGround(Shown):
         return "\n".join(columns(rows))
 
 
-def failing_step(y: Array, after: Array, walked: NDArray[np.bool_], p: Array) -> Array:
+def failing_step(y: Array, after: Array, walked: Flags, p: Array) -> Array:
     """Mean number N (n,) of the step that fails, from each value of y (n,): N = 1 + T N, T of the next y.
 
     y: evenly spaced. after (m, n): y+ over each of m heights, of the probabilities p (m,). walked (m, n):

@@ -26,13 +26,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.feet import FEET
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Flags
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.robots.limits import SLIP
 
@@ -140,9 +139,7 @@ def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
     )
 
 
-def slipping(
-    force: Array, speed: Array, friction: float, axes: tuple[Array, Array]
-) -> NDArray[np.bool_]:
+def slipping(force: Array, speed: Array, friction: float, axes: tuple[Array, Array]) -> Flags:
     """Whether each foot slips (...,), from its force [N] and its velocity `speed` [m/s], (x, z) in (..., 2).
 
     friction: mu of the ground [1]. axes: two unit vectors (2,), along the ground and out of it.

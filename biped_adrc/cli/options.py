@@ -13,14 +13,14 @@ from contextlib import suppress
 from functools import reduce, wraps
 from inspect import Parameter, Signature, signature
 from pathlib import Path
-from typing import Annotated, Any, TypeVar, get_type_hints
+from typing import Annotated, Any, get_type_hints
 
 import typer
 from pydantic import TypeAdapter, ValidationError
 
 from biped_adrc.core.errors import InputError, complaint, unknown
 from biped_adrc.core.files import packaged
-from biped_adrc.core.types import PlainRecord
+from biped_adrc.core.types import PlainRecord, T
 from biped_adrc.scenario.scenario import Scenario, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
@@ -29,7 +29,6 @@ option -> dotted name of the value)."""
 WALKS = ("controller", "gait", "preset", "robot")
 """Short options of all commands that take a scenario: what walks."""
 Command = Callable[..., None]
-_T = TypeVar("_T")
 
 
 def options(place: str, *names: str, **usual: str) -> Callable[[Command], Command]:
@@ -177,8 +176,8 @@ def _own(text: str) -> object:
 
 
 def with_sets(
-    make: type[_T], sets: list[str] | None, usual: PlainRecord | None = None, **fixed: object
-) -> _T:
+    make: type[T], sets: list[str] | None, usual: PlainRecord | None = None, **fixed: object
+) -> T:
     """An object of the dataclass `make`, with values from --set NAME=VALUE, read by the types of its fields.
 
     The text "none" is None, and a tuple is written with commas. usual: values for fields that --set does not

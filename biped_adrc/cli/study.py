@@ -10,8 +10,6 @@ joints in a push are checked before the first walk.
 A command's docstring is its help text; its arguments are described in options.toml.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 from pathlib import Path

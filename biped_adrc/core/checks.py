@@ -19,16 +19,14 @@ from inspect import unwrap
 from numbers import Integral, Real
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from biped_adrc.core.by_value import ByValue
 from biped_adrc.core.errors import BipedError, InputError, NotFiniteError, RaisedError
-from biped_adrc.core.types import Array
-
-_T = TypeVar("_T")
+from biped_adrc.core.types import Array, T
 
 
 class Range(NamedTuple):
@@ -337,12 +335,12 @@ def is_users(file: str) -> bool:
     return not file.startswith((PACKAGE, *LIBRARIES, "<frozen"))
 
 
-def per_class(make: Callable[[type], _T]) -> Callable[[type], _T]:
+def per_class(make: Callable[[type], T]) -> Callable[[type], T]:
     """Decorator: make(cls) is computed once for each class, and forgotten with it; the engine makes many."""
-    known = WeakKeyDictionary[type, _T]()
+    known = WeakKeyDictionary[type, T]()
 
     @wraps(make)
-    def found(cls: type) -> _T:
+    def found(cls: type) -> T:
         if cls not in known:
             known[cls] = make(cls)
         return known[cls]

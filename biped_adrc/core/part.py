@@ -16,13 +16,11 @@ from abc import ABC
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields
 from functools import cached_property, wraps
-from typing import Any, TypeVar
+from typing import Any
 
 from biped_adrc.core.checks import Checked, hints_of, per_class
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import frozen
-
-_T = TypeVar("_T")
+from biped_adrc.core.types import T, frozen
 
 
 class derived(cached_property[Any]):
@@ -107,14 +105,14 @@ def _as_floats(x: Any) -> Any:
     return float(x) if type(x) is int else x
 
 
-def with_content(part: _T, values: Mapping[str, Any], cls: type | None = None) -> _T:
+def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:
     """Make an object of the class of a part, or of `cls`, with these attributes alone, without any check."""
     new: Any = object.__new__(type(part) if cls is None else cls)
     vars(new).update(values)
     return new
 
 
-def with_fields(part: _T, **values: Any) -> _T:
+def with_fields(part: T, **values: Any) -> T:
     """A copy of a part with these fields changed, without any check.
 
     Derived numbers that were computed already are copied, not computed anew. For methods that run on symbols

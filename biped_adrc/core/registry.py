@@ -27,11 +27,11 @@ from inspect import Parameter, signature
 from pkgutil import resolve_name
 from threading import RLock
 from types import MappingProxyType
-from typing import TypeVar
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import BipedError, InputError, unknown
 from biped_adrc.core.files import data_folder, packaged
+from biped_adrc.core.types import T
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""
@@ -40,7 +40,6 @@ FOLDERS: dict[str, str] = {}
 """Name of a user's module -> folder of the study file that names a class of it; workers are handed a copy."""
 _IMPORTING = RLock()
 """Held while folders are on the path: threads share it, and a module may name others while it is imported."""
-_T = TypeVar("_T")
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
@@ -124,7 +123,7 @@ def portable(kind: str, name: str) -> str:
     return entry.home if entry is not None and entry.given is not None else name
 
 
-def part_of_user(kind: str, name: str, values: Mapping[str, object], base: type[_T]) -> _T | None:
+def part_of_user(kind: str, name: str, values: Mapping[str, object], base: type[T]) -> T | None:
     """The robot or gait that the user's class or function of this name makes; None where a file has the name.
 
     values: arguments of that class or function, by name. base: class that the result has to be of. Raises
@@ -230,9 +229,9 @@ def construct(
     what: str,
     make: Callable[..., object],
     values: Mapping[str, object],
-    kind: type[_T],
+    kind: type[T],
     place: str = "",
-) -> _T:
+) -> T:
     """Call make with those values whose names are parameters of it, and return the result, which has to be an
     object of class `kind`.
 

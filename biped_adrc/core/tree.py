@@ -10,15 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from numbers import Real
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.core.checks import line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
-
-_T = TypeVar("_T")
 
 
 def flatten(tree: Any) -> Array:

@@ -6,13 +6,17 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-_T = TypeVar("_T")
+T = TypeVar("T")
+"""Some type, in the signature of a function."""
 
 Array = NDArray[np.float64]
 """Real array in float64; shapes are stated in the docstrings."""
 
 Indices = NDArray[np.int_]
 """Array of int: row numbers, and the relabelling of joints at an impact (see `relabelled`)."""
+
+Flags = NDArray[np.bool_]
+"""Array of truth values."""
 
 ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
@@ -33,7 +37,7 @@ def read_only(values: ArrayLike) -> Array:
     return array
 
 
-def frozen(value: _T) -> _T:
+def frozen(value: T) -> T:
     """A read-only view of an array, or a tuple with its arrays so; other values are returned as they are.
 
     For arrays handed to a user's code, or stored: the array itself stays writable for its owner.

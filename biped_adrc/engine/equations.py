@@ -29,7 +29,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
 from operator import methodcaller
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -41,7 +41,7 @@ from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import tracked_point
 from biped_adrc.core.tree import Layout, chosen
-from biped_adrc.core.types import Array, Indices
+from biped_adrc.core.types import Array, Indices, T
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.not_compiled import Located, NotCompiled
@@ -50,8 +50,6 @@ from biped_adrc.engine.symbols import Scalar, Vector, column, maximum, minimum, 
 from biped_adrc.engine.tracer import Tracer, apply
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.model.planar_robot import PlanarRobot
-
-_T = TypeVar("_T")
 
 
 class SymbolicLoop(NamedTuple):
@@ -166,7 +164,7 @@ class SymbolicInstant(NamedTuple):
     mode: Mode
     """Number of the single support and its start [s]."""
 
-    def does(self, function: Callable[..., _T], *more: object) -> _T:
+    def does(self, function: Callable[..., T], *more: object) -> T:
         """The result of function(loop, t, x, mode, *more) on the symbols of this instant; a function of
         `semantics`, or one with the same first arguments.
         """

@@ -18,19 +18,16 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from typing import Any, TypeVar, Union
+from typing import Any, Union
 
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.core.part import content, is_part, with_content
-from biped_adrc.core.types import Array, frozen
+from biped_adrc.core.types import Array, T, frozen
 from biped_adrc.engine.leaves import HIDDEN, LISTS, REALS, floats, rebuilt
 from biped_adrc.engine.not_compiled import NotCompiled
-
-T = TypeVar("T")
-
 
 _Number = Union["Scalar", float]
 """A symbol, or a number that is a constant of the expression."""

@@ -12,8 +12,6 @@ event. A guard is an event function with what its event does, a twin the operati
 compiled.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from collections.abc import Callable

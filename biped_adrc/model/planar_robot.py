@@ -50,13 +50,12 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.once import once
 from biped_adrc.core.part import derived, with_fields
-from biped_adrc.core.types import Array, Indices
+from biped_adrc.core.types import Array, Flags, Indices
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.contact import Impact
 from biped_adrc.model.planar import Numbers, Turned, fitted, jacobian, per_link, point, turned
@@ -167,7 +166,7 @@ class PlanarRobot:
         return self
 
     @derived
-    def present(self) -> tuple[NDArray[np.bool_], ...]:
+    def present(self) -> tuple[Flags, ...]:
         """For each number or array in K, in order, a bool array of its shape: which entries are not zero.
 
         The engine takes it as structure: another pattern of zeros is another machine code.

@@ -30,14 +30,13 @@ from itertools import pairwise
 from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.analysis import soft_steps as meters
 from biped_adrc.analysis.signals import FORCE, PLACE, Signals, footholds
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import Checked, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Flags
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
@@ -346,7 +345,7 @@ def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
     return DrawnLoads(force, drawn, other, slips)
 
 
-def foot_slips(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
+def foot_slips(scene: WalkScene, arc: Arc) -> Flags:
     """Whether one of the feet slips, at each of the K nodes of an arc on soft ground (K,): its force is at the
     friction cone and it moves, as `analysis.soft_steps` counts it.
     """

@@ -21,11 +21,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
@@ -63,7 +62,7 @@ class ImpactStates(NamedTuple):
     """True states of the chain just before impact (order, p)."""
     after: Array
     """True states just after impact, in the coordinates of the next step (order, p)."""
-    swap: NDArray[np.int_]
+    swap: Indices
     """Relabelling (p,): joint i after impact has entry swap[i] of (x, -x), x (p,) of the joints before it."""
     inertia: Array
     """kappa^-1 (p, p) just after impact [kg m^2]."""

@@ -32,8 +32,8 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from biped_adrc.core.errors import InputError, check_count
-from biped_adrc.core.types import Array, frozen
-from biped_adrc.extras.gym.stage import Flags, LearnerTask, Stage
+from biped_adrc.core.types import Array, Flags, frozen
+from biped_adrc.extras.gym.stage import LearnerTask, Stage
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.view.colours import TRUNK

@@ -27,7 +27,6 @@ from dataclasses import dataclass, fields
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.instant_signals import Tracked
 from biped_adrc.closed_loop.protocols import Loop, Mode
@@ -38,7 +37,7 @@ from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, one
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Flags
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.model.robots.limits import KnownLimits
@@ -139,9 +138,6 @@ TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""
 _NAMES = np.array(["walks", *(x.name.lower().replace("_", " ") for x in STATUS[1:])], dtype=object)
 """Text of each status, by its code."""
-
-Flags = NDArray[np.bool_]
-"""One truth value for each of N walks."""
 
 
 class Stage:

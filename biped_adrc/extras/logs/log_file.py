@@ -17,11 +17,10 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import CsvTable, reading, write_csv
-from biped_adrc.core.types import Array, relabelled
+from biped_adrc.core.types import Array, Flags, relabelled
 from biped_adrc.extras.logs.robot_log import RobotLog, check_rows
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.units import quantity
@@ -108,7 +107,7 @@ def relabel_legs(
     return q, v, np.where(other, relabelled(u, biped.swap), u)
 
 
-def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
+def _check_pairs(measured: Flags, biped: Biped) -> None:
     """Raise InputError where the rate of a joint is measured on one leg and not on the other; measured (n,)."""
     # R (n, n), q+ = R q-, exchanges the names of the legs: it has an entry i, j where v_j becomes v_i
     alone = np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured) + 1

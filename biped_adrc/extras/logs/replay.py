@@ -43,7 +43,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
@@ -52,7 +51,7 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown, columns
-from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.types import Array, Flags, freeze
 from biped_adrc.extras.logs.log_file import read_log
 from biped_adrc.extras.logs.reading import check_reading
 from biped_adrc.extras.logs.robot_log import RobotLog
@@ -343,7 +342,7 @@ def replay(
     return Replay(scenario, result, signals, window)
 
 
-def _row(x: ReplaySignals, rows: NDArray[np.bool_]) -> ReplayRow:
+def _row(x: ReplaySignals, rows: Flags) -> ReplayRow:
     """The `ReplayRow` of the single support whose samples are `rows` (K,), a mask."""
     contact = rows & (x.in_contact > 0.5)
     outside, apart = x.zeta_estimate[rows & ~contact], (x.torque - x.u)[rows]

@@ -19,7 +19,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.semantics import in_other_names, parts
 from biped_adrc.closed_loop.walker import Walker
@@ -27,7 +26,7 @@ from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import LONGEST_PERIOD, SAME_INSTANT, SampledTime
-from biped_adrc.core.types import Array, Indices, read_only, relabelled
+from biped_adrc.core.types import Array, Flags, Indices, read_only, relabelled
 from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.recording import Walk
@@ -84,7 +83,7 @@ class RobotLog(Shown):
         return np.asarray(self.v)
 
     @property
-    def has_rate(self) -> NDArray[np.bool_]:
+    def has_rate(self) -> Flags:
         """Whether the rate of each coordinate was measured (n,)."""
         return np.asarray(self.measured) > 0.5
 

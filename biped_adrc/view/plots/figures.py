@@ -11,8 +11,6 @@ Symbols: zeta, torque from outside on each coordinate [N m]; xi of (13) of the p
 joint [rad/s^2], and xi^, an observer's estimate of it; Theta, phase of the gait [rad], and its rate Theta'.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any

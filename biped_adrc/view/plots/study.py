@@ -15,9 +15,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure
 
 _MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
@@ -146,7 +145,7 @@ def path_figure(
         return figure
 
 
-def cut(values: Sequence[Any]) -> tuple[NDArray[np.intp], list[str]]:
+def cut(values: Sequence[Any]) -> tuple[Indices, list[str]]:
     """Sort values (N,) into the cells of an axis; returns the cell's index of each (N,), and the cells' names.
 
     Each level is a cell; more than MOST_LEVELS numbers are cut into `CELLS` intervals of equal width, with the
@@ -170,9 +169,7 @@ def _text(x: Any) -> str:
     return literal(x) if isinstance(x, str) else "none" if x is None else f"{x:.4g}"
 
 
-def _means(
-    x: NDArray[np.intp], y: NDArray[np.intp], numbers: Array, shape: tuple[int, int]
-) -> Array:
+def _means(x: Indices, y: Indices, numbers: Array, shape: tuple[int, int]) -> Array:
     """Mean of the finite numbers (N,) in each cell, (cells of y, cells of x); NaN where a cell has none.
 
     x, y (N,): index of the cell of each number along both axes. shape: (cells of y, cells of x).
