@@ -19,10 +19,26 @@ from typing import Any
 
 import biped_adrc as ba
 from biped_adrc.studies.study import read_study
+from validation.findings.statistics import questions
 
 PLAN = tomllib.loads((Path(__file__).parent / "comparison.toml").read_text())
 SEARCH, CHOICE, REHEARSAL = 0, 100, 900
 """First seeds of the three sets of walks; test walks have seeds of their own, see `questions`."""
+
+
+COLUMNS = (
+    "hardware",
+    "gait",
+    "tuning",
+    "controller",
+    "search",
+    "candidates",
+    "on search",
+    "on choice",
+    "stop",
+    "values",
+    "why",
+)
 
 
 def places() -> Iterator[tuple[str, str, str]]:
@@ -41,9 +57,15 @@ def merged(*tables: dict[str, Any]) -> dict[str, Any]:
 
 
 def study_of(
-    hardware: str, gait: str, tuning: str, cases: list[str] | None = None
+    hardware: str, gait: str, tuning: str, more: dict[str, int] | None = None
 ) -> dict[str, Any]:
-    """The tables of the study that searches all controllers at a place."""
+    """The tables of the study that searches all controllers at a place. more: controller -> number of searches,
+    for the ones beyond those that all have; these have other seeds of the sampler.
+    """
+    least = PLAN["searches"]
+    numbers = {n: range(least) for n in PLAN["controllers"]}
+    if more is not None:
+        numbers = {n: range(least, count) for n, count in more.items()}
     t = PLAN["tunings"][tuning]
     base = merged(
         PLAN["base"],
@@ -61,14 +83,14 @@ def study_of(
         "base": base,
         "conditions": conditions,
         "cases": {
-            f"{name} #{i + 1}": values
-            for name, values in PLAN["controllers"].items()
-            for i in range(PLAN["searches"])
-            if cases is None or name in cases
+            f"{name} #{i + 1}": PLAN["controllers"][name]
+            for name, some in numbers.items()
+            for i in some
         },
         "search": {
             **PLAN["search"],
             "budget": t["budget"],
+            "seed": 0 if more is None else 1000,
             "objective": t["objective"],
             "limits": t["limits"],
             "variables": merged(PLAN["variables"], behind),
@@ -78,21 +100,26 @@ def study_of(
 
 
 def searched(
-    folder: Path, hardware: str, gait: str, tuning: str, workers: int | None
+    folder: Path,
+    at: tuple[str, str, str],
+    more: dict[str, int] | None = None,
+    workers: int | None = None,
 ) -> list[dict[str, Any]]:
-    """Search all controllers at a place; returns a row for each search."""
-    tables = study_of(hardware, gait, tuning)
-    at = {"hardware": hardware, "gait": gait, "tuning": tuning}
+    """Search all controllers at a place, or some more often; returns a row for each search."""
+    tables = study_of(*at, more)
     asked = read_study(tables)
     assert asked.search is not None
-    out = folder / "-".join(at.values())
+    out = folder / "-".join((*at, *(["more"] if more else [])))
     found = ba.study(
         asked, out, workers, progress=lambda p: print(p.note, flush=True) if p.note else None
     )
     rows = []
     for case in tables["cases"]:
         controller, _, number = case.partition(" #")
-        row = {**at, "controller": controller, "search": int(number)}
+        row = dict(zip(COLUMNS, at, strict=False)) | {
+            "controller": controller,
+            "search": int(number),
+        }
         choice = found.choices.get(case)
         if choice is None:
             why = next(x for x in found.failures if f", {case}:" in x)
@@ -113,28 +140,20 @@ def searched(
     return rows
 
 
-COLUMNS = (
-    "hardware",
-    "gait",
-    "tuning",
-    "controller",
-    "search",
-    "candidates",
-    "on search",
-    "on choice",
-    "stop",
-    "values",
-    "why",
-)
-
-
 def main(out: str, *names: str) -> None:
-    """Search at the places named, or at all; `out` gets a folder and a CSV for each."""
-    for at in places():
-        if names and "-".join(at) not in names:
+    """Search at the places named, or at all, with one worker for each name; "-more" after a name: the further
+    searches of the first question. `out` gets a folder and a CSV for each.
+    """
+    runs: dict[str, tuple[tuple[str, str, str], dict[str, int] | None]]
+    runs = {"-".join(at): (at, None) for at in places()}
+    for at, more in questions()["more"].items():
+        a, b, c = at.split(", ")
+        runs[f"{a}-{b}-{c}-more"] = (a, b, c), more
+    for name, (at, more) in runs.items():
+        if names and name not in names:
             continue
-        rows = searched(Path(out), *at, workers=1 if names else None)
-        with open(Path(out) / ("-".join(at) + ".csv"), "w", newline="") as file:
+        rows = searched(Path(out), at, more, 1 if names else None)
+        with open(Path(out) / f"{name}.csv", "w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)
             writer.writeheader()
             writer.writerows(rows)
