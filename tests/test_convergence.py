@@ -19,8 +19,8 @@ from biped_adrc.analysis.half_step import AGREE, error_text
 from biped_adrc.analysis.signals import integrate, largest
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.program import COMPILED
+from biped_adrc.paper.metrics import largest_gap, order_of_error
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.paper.two_steps import largest_gap, order_of_error
 from biped_adrc.scenario.integration import FINE_STEP, WalkPart, in_parts, refined
 from biped_adrc.scenario.walk import execute_twice, walk_scenario
 

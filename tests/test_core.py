@@ -16,11 +16,10 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core import checks, errors, files, processes, registry, tree, versions
-from biped_adrc.core.by_value import ByValue
 from biped_adrc.core.errors import InputError, OutputError, SingularError, unknown
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.part import content, setup, with_fields
-from biped_adrc.core.shown import LONGEST, call_text, columns, short
+from biped_adrc.core.shown import LONGEST, ByValue, call_text, columns, short
 from biped_adrc.core.timing import check_ends
 from biped_adrc.core.verdict import at_least, at_most, below, between
 from biped_adrc.gait.reference import ReferencePoint

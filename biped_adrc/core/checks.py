@@ -24,8 +24,8 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from biped_adrc.core.by_value import ByValue
 from biped_adrc.core.errors import BipedError, InputError, NotFiniteError, RaisedError
+from biped_adrc.core.shown import ByValue
 from biped_adrc.core.types import Array, T
 
 

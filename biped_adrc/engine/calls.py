@@ -30,11 +30,10 @@ from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.engine.generated import generated
-from biped_adrc.engine.leaves import floats, rebuilt
 from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.program import push_code
-from biped_adrc.engine.structure import structure
+from biped_adrc.engine.structure import floats, rebuilt, structure
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of

@@ -1,7 +1,7 @@
 """The numbers of a walker, the closed loop, that machine code gets at run time: masses, gains, limits, .., by
 name.
 
-`engine.leaves.floats` writes the floats among them in this order into the vector K, an argument of every
+`engine.structure.floats` writes the floats among them in this order into the vector K, an argument of every
 compiled function; whole numbers and flags decide the code itself. A number that machine code is to get in
 addition becomes a field here.
 """

@@ -36,11 +36,10 @@ from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
-from biped_adrc.engine.leaves import floats, floats_inside
 from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.numbers import Reading, WalkerNumbers, numbers_of
-from biped_adrc.engine.structure import alike, structure
+from biped_adrc.engine.structure import alike, floats, floats_inside, structure
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels

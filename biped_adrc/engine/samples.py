@@ -38,11 +38,11 @@ from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.lanes import SIDE_BY_SIDE, Lanes, Team
-from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.engine.program import CompiledWalker, Program
 from biped_adrc.engine.run import compiled_plant
+from biped_adrc.engine.structure import floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.constants import next_tick
 from biped_adrc.hybrid.integrators import OneStepMethod

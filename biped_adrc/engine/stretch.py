@@ -24,7 +24,7 @@ from biped_adrc.engine.equations import Equations, SymbolicFunction, push_functi
 from biped_adrc.engine.ir import Listing, declarations, defined, function_text
 from biped_adrc.engine.kernels import record as at
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.leaves import floats
+from biped_adrc.engine.structure import floats
 
 
 def stretch_text(equations: Equations, moving: int, lags: int, lanes: int) -> str:

@@ -26,8 +26,8 @@ from numpy.typing import ArrayLike
 
 from biped_adrc.core.part import content, is_part, with_content
 from biped_adrc.core.types import Array, T, frozen
-from biped_adrc.engine.leaves import HIDDEN, LISTS, REALS, floats, rebuilt
 from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.structure import HIDDEN, LISTS, REALS, floats, rebuilt
 
 _Number = Union["Scalar", float]
 """A symbol, or a number that is a constant of the expression."""
@@ -269,7 +269,7 @@ class Hidden:
 class Vector:
     """A flat vector of symbols (size,); `take` hands them out from the front, one array after the other.
 
-    name: for CasADi's messages. symbol: CasADi's column (size, 1). `leaves.floats` lists the numbers of
+    name: for CasADi's messages. symbol: CasADi's column (size, 1). `structure.floats` lists the numbers of
     parameters in the same order, so a generated function and its caller agree on the layout without writing it
     down.
     """

@@ -27,9 +27,8 @@ from numpy.typing import NDArray
 from biped_adrc.core import checks, linear
 from biped_adrc.core.part import Part, content, derived, is_part, with_content
 from biped_adrc.core.types import T, frozen
-from biped_adrc.engine.leaves import HIDDEN, rebuilt
 from biped_adrc.engine.not_compiled import Located, NotCompiled, located
-from biped_adrc.engine.structure import is_library
+from biped_adrc.engine.structure import HIDDEN, is_library, rebuilt
 from biped_adrc.engine.symbols import (
     TWINS,
     Hidden,

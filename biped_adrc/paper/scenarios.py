@@ -17,7 +17,7 @@ any two choices meet in all pairs of levels equally often, so that no effect hid
     xi, xi^          total disturbance of the joints [rad/s^2], and the observer's estimate of it
     values           of a function: values of a scenario by their dotted names, which replace its own
 
-Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.two_steps`).
+Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.metrics`).
 """
 
 import itertools

@@ -37,12 +37,12 @@ from typing import Any, NamedTuple
 from biped_adrc.analysis.half_step import ROUND_OFF, AtTwoSteps
 from biped_adrc.core.files import packaged
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
-from biped_adrc.paper import metrics, physical_laws, two_steps, values
+from biped_adrc.paper import metrics, physical_laws, values
+from biped_adrc.paper.metrics import Extremes
 from biped_adrc.paper.runs import Runs
 from biped_adrc.paper.scenarios import declared
-from biped_adrc.paper.two_steps import Extremes
 
-ROOMS = (metrics, values, two_steps, physical_laws)
+ROOMS = (metrics, values, physical_laws)
 """Modules of functions that claims.toml and checks.toml name."""
 CLAIM = "claim"
 """Kind of a statement of the paper, which is judged over all its cases."""

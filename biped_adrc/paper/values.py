@@ -1,5 +1,5 @@
 """The numbers in the texts of the claims: each function returns them by the names in braces in claims.toml,
-where the text around a name has its unit. `Extremes` of numbers stand in a text as "least to largest".
+where the text around a name has its unit. `metrics.Extremes` of numbers stand in a text as "least to largest".
 
     r                the results of a reproduction
     NPD, ADRC        the controllers: PD with decoupling of the inertia, and ADRC with an observer
@@ -35,7 +35,6 @@ from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.paper.pushes import LOST
 from biped_adrc.paper.runs import Runs
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
-from biped_adrc.paper.two_steps import Extremes
 
 
 def of_headline(r: Runs) -> dict[str, object]:
@@ -71,14 +70,14 @@ def of_members(r: Runs) -> dict[str, object]:
     adrc, npd = ([o.walked[c] for o in every] for c in ("ADRC", "NPD"))
     why = sorted({x for w in adrc for name, x in w.infeasible.items() if name != IMPULSE})
     by_theta = {
-        theta: Extremes.of(o.walked["ADRC"].peak for o in every if o.member.theta == theta)
+        theta: m.Extremes.of(o.walked["ADRC"].peak for o in every if o.member.theta == theta)
         for theta in declared()["factors"]["theta"]
     }
     return {
         **by_theta,
-        "npd": Extremes.of(w.deviation for w in npd),
-        "adrc": Extremes.of(w.deviation for w in adrc),
-        "npd_rates": Extremes.of(w.rate for w in npd),
+        "npd": m.Extremes.of(w.deviation for w in npd),
+        "adrc": m.Extremes.of(w.deviation for w in adrc),
+        "npd_rates": m.Extremes.of(w.rate for w in npd),
         "steps": declared()["steps"]["impacts"],
         "why": "; ".join(why) or "nothing",
         "apart": sum(set(w.infeasible) == {IMPULSE} for w in adrc),
@@ -89,7 +88,7 @@ def of_members(r: Runs) -> dict[str, object]:
 def of_recipe_push(r: Runs) -> dict[str, object]:
     """The ratios of the peak errors, ADRC over NPD, under the push on gait (b)."""
     every = m.pushed("pushed_recipe", r).values()
-    return {"peaks": Extremes.of(m.ratio("peak", o) for o in every)}
+    return {"peaks": m.Extremes.of(m.ratio("peak", o) for o in every)}
 
 
 def of_map(r: Runs) -> dict[str, object]:
@@ -133,7 +132,7 @@ def of_torso(r: Runs) -> dict[str, object]:
 
 def of_heavier(r: Runs) -> dict[str, object]:
     """The ratios of the peak errors, ADRC over NPD, with a plant heavier than the controller's model."""
-    return {"errors": Extremes.of(map(m.error, m.heavier(r).values()))}
+    return {"errors": m.Extremes.of(map(m.error, m.heavier(r).values()))}
 
 
 def of_orders(r: Runs) -> dict[str, object]:
@@ -162,7 +161,7 @@ def of_jumps(r: Runs) -> dict[str, object]:
     at an impact and at an edge of a push, named as in `runs.jumps`.
     """
     every = [*r.jumps.values()]
-    return {name: Extremes(x[name] for x in every) for name in every[0]}
+    return {name: m.Extremes(x[name] for x in every) for name in every[0]}
 
 
 def of_cycles(r: Runs) -> dict[str, object]:
@@ -183,7 +182,7 @@ def of_needs(r: Runs) -> dict[str, object]:
     """
     both, cost = m.both_gaits(r), partial(m.last, "cost_of_transport")
     costs = (f"{preset} {cost(b):.3f} against {cost(a):.3f}" for preset, (b, a) in both.items())
-    torques = Extremes(b.peak_torque for b, _ in both.values())
+    torques = m.Extremes(b.peak_torque for b, _ in both.values())
     return {"costs": "; ".join(costs), "torques": torques}
 
 
@@ -199,9 +198,9 @@ def of_starts(r: Runs) -> dict[str, object]:
     above = [s for s in every if s.factor > 1.0]
     on = [s for s in above if all(o.walked for o in s.outcomes.values())]
     return {
-        "failing": Extremes(s.least * s.factor for s in every if s.factor < 1.0),
-        "passing": Extremes(s.least * s.factor for s in on),
-        "least": Extremes(s.least for s in every),
+        "failing": m.Extremes(s.least * s.factor for s in every if s.factor < 1.0),
+        "passing": m.Extremes(s.least * s.factor for s in on),
+        "least": m.Extremes(s.least for s in every),
         "passed": len(on),
         "above": len(above),
     }

@@ -26,12 +26,11 @@ from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.disturbances.base import Windowed
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import numbers_of
 from biped_adrc.engine.program import Program, push_code
-from biped_adrc.engine.structure import structure
+from biped_adrc.engine.structure import floats, structure
 from biped_adrc.engine.symbols import Vector, column
 from biped_adrc.engine.tracer import Tracer, apply
 from biped_adrc.gait.constraint import continued

@@ -19,9 +19,8 @@ from biped_adrc.core.checks import LIBRARIES
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.generated import generated
-from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.program import push_code
-from biped_adrc.engine.structure import alike, lasting, structure
+from biped_adrc.engine.structure import alike, floats, lasting, structure
 from tests.control.conforms import call
 
 HEAD = """

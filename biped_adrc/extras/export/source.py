@@ -19,8 +19,8 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import c_comment, one_line
 from biped_adrc.core.versions import packages
 from biped_adrc.engine import sine
-from biped_adrc.engine.leaves import floats, paths
 from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.structure import floats, paths
 from biped_adrc.extras.export.c_text import Written, c_text, decimal, read_by
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.functions import Field, Functions, functions

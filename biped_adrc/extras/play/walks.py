@@ -35,9 +35,9 @@ from biped_adrc.disturbances.force import OnLink
 from biped_adrc.disturbances.waves import TorqueStep
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.record import FUNCTIONS, PLACES, Ints
-from biped_adrc.engine.leaves import paths
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import CompiledWalker
+from biped_adrc.engine.structure import paths
 from biped_adrc.extras.play.sliders import Form, Slider, forms_of, numbers_at, sliders
 from biped_adrc.extras.play.webassembly import WebWalker, web_walkers
 from biped_adrc.hardware.motors import whole_and_part

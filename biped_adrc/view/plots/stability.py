@@ -1,17 +1,16 @@
-"""Floquet multipliers of the return map, and iterations of a scalar return map as stairs.
+"""Floquet multipliers of the return map.
 
 The return map takes the state before an impact to that before the next one. A periodic walk, its fixed point,
 is stable when all multipliers lambda, the eigenvalues of the map's derivative there, lie inside the unit
 circle. `analysis.stability` computes them by several methods; they are drawn by name beside each other.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
-from biped_adrc.core.types import Array
 from biped_adrc.view.style import GREY, PALETTE, label
 
 _MARKERS = "ox^s"
@@ -67,14 +66,3 @@ def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) 
     """
     marker, colour = _MARKERS[i % 4], PALETTE[i]
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
-
-
-def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:
-    """Draw successive values `way` (k,) of a scalar return map as stairs over (value, next value), from the
-    diagonal at way[0]: up or down to the map, then across to the diagonal, and so on.
-
-    way: in the unit of the map. name: in the legend.
-    """
-    # x: w0 w0 w1 w1 ..., y: w0 w1 w1 w2 ...
-    corners = np.repeat(way, 2)
-    axes.plot(corners[:-1], np.append(way[0], corners[2:]), color=PALETTE[1], lw=0.9, label=name)

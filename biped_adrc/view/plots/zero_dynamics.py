@@ -25,7 +25,6 @@ from biped_adrc.analysis.zero_report import ZeroDynamicsReport
 from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_domain import PASSING
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
-from biped_adrc.view.plots.stability import stairs
 from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure
 
 WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
@@ -115,6 +114,17 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     axes.set_ylim(0.0, None)
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.16), ncols=3)
     return axes
+
+
+def stairs(axes: Axes, way: Array, name: str) -> None:
+    """Draw successive values `way` (k,) of a scalar return map as stairs over (value, next value), from the
+    diagonal at way[0]: up or down to the map, then across to the diagonal, and so on.
+
+    way: in the unit of the map. name: in the legend.
+    """
+    # x: w0 w0 w1 w1 ..., y: w0 w1 w1 w2 ...
+    corners = np.repeat(way, 2)
+    axes.plot(corners[:-1], np.append(way[0], corners[2:]), color=PALETTE[1], lw=0.9, label=name)
 
 
 def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
