@@ -24,10 +24,15 @@ test: .venv/.test
 
 # tests, lint, types, import rules, pages, wheel, and reproduction and benchmarks in short
 check: .venv/.dev
-	$(MAKE) --no-print-directory --jobs=3 --output-sync=target test docs .static .short
+	$(MAKE) --no-print-directory --jobs=3 --output-sync=target test .pages .static .short
 
-# the pages, in docs/_build/html
+# the pages, in docs/_build/html, after the parts of docs/api and the notebook that are made from package and pages
 docs: .venv/.dev
+	$(BIN)/python docs/expand.py
+	$(BIN)/python docs/make_notebook.py
+	$(MAKE) --no-print-directory .pages
+
+.pages: .venv/.dev
 	$(BIN)/sphinx-build -W --keep-going -n -E -q -b html docs docs/_build/html
 	$(BIN)/biped-adrc play --set hardware.torque_limit=150 -o docs/_build/html/_static/play.html
 	$(BIN)/python docs/check_pages.py docs/_build/html
@@ -59,7 +64,7 @@ dev: .venv/.dev
 clean:
 	rm -rf .venv out build dist
 
-.PHONY: .static .short
+.PHONY: .pages .static .short
 
 .static: .venv/.dev
 	$(BIN)/ruff check .

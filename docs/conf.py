@@ -79,7 +79,8 @@ def by_home(app, env, node, contnode):
         if target == long or target.startswith(f"{long}."):
             short = f"biped_adrc.{name}" + target.removeprefix(long)
             domain, doc = env.get_domain("py"), node["refdoc"]
-            return domain.resolve_xref(env, doc, app.builder, "obj", short, node, contnode)
+            found = domain.resolve_xref(env, doc, app.builder, "obj", short, node, contnode)
+            return found or (contnode if exists(target) else None)
     return contnode if exists(target) else None
 
 
@@ -91,5 +92,5 @@ def setup(app):
     app.connect("autodoc-process-signature", docstrings.signature)
     app.connect("autodoc-process-bases", docstrings.bases)
     app.connect("autodoc-skip-member", docstrings.skip)
-    app.connect("source-read", expand.placeholders)
+    app.connect("source-read", expand.for_sphinx)
     app.connect("missing-reference", by_home)

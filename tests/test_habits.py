@@ -10,6 +10,7 @@ import importlib
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -90,6 +91,15 @@ def test_the_citation_is_of_this_version_and_of_the_paper():
         "Cortes-Romero",
         "Tovar",
     ]
+
+
+def test_each_python_that_is_claimed_is_checked():
+    """By the workflow and by .ci/run: the versions of the classifiers."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    claimed = [c.split(" :: ")[-1] for c in project["classifiers"] if ":: Python :: 3" in c]
+    workflow = yaml.safe_load((ROOT / ".github" / "workflows" / "check.yml").read_text())
+    assert workflow["jobs"]["check"]["strategy"]["matrix"]["python"] == claimed
+    assert f"for version in {' '.join(claimed)}; do" in (ROOT / ".ci" / "run").read_text()
 
 
 # -- rooms ------------------------------------------------------------------------------------------
