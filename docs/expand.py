@@ -23,7 +23,7 @@ import biped_adrc
 
 API = Path(__file__).parent / "api"
 _PART = re.compile(
-    r"^<!-- (table|names|help|fields) of (.+?) -->\n(?:(?:(?!<!-- ).*\n)*<!-- end -->\n)?",
+    r"^<!-- (table|names|help|fields) of (.+?) -->\n(?:(?:(?!<!-- ).*\n)*<!-- end -->(?:\n|\Z))?",
     re.MULTILINE,
 )
 _FOR_SPHINX = {
