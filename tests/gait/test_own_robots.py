@@ -20,10 +20,9 @@ import biped_adrc as ba
 from biped_adrc.core.files import data_folder
 from biped_adrc.gait.conventions import convention
 from biped_adrc.gait.curves import Bezier
-from biped_adrc.gait.exchange.causes import with_legs
 from biped_adrc.gait.exchange.importing import read_mat, write_record
 from biped_adrc.gait.exchange.record import GaitFile, record_of
-from biped_adrc.gait.exchange.samples import Samples
+from biped_adrc.gait.exchange.samples import Samples, with_legs
 from biped_adrc.gait.gait import onto_section
 from biped_adrc.gait.zero_dynamics import (
     ZeroDynamics,

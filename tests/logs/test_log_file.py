@@ -15,8 +15,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.extras.logs.log_file import check_plausible, write_log
-from biped_adrc.extras.logs.reading import check_reading
+from biped_adrc.extras.logs.log_file import check_plausible, check_reading, write_log
 from biped_adrc.extras.logs.robot_log import RobotLog, logged
 
 ARRAYS = ("t", "step", "q", "u", "v", "measured")

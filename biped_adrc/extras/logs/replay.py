@@ -52,8 +52,7 @@ from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, Flags, freeze
-from biped_adrc.extras.logs.log_file import read_log
-from biped_adrc.extras.logs.reading import check_reading
+from biped_adrc.extras.logs.log_file import check_reading, read_log
 from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.scenario.build import RobotAndGait, build

@@ -43,7 +43,6 @@ from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import output_path, plain, read_json, reading, write_bytes, write_json
 from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
-from biped_adrc.gait.exchange.causes import explained
 from biped_adrc.gait.exchange.entries import all_entries, entry, frost_steps
 from biped_adrc.gait.exchange.record import (
     ENTRIES,
@@ -55,7 +54,7 @@ from biped_adrc.gait.exchange.record import (
     onto_ground,
     record_of,
 )
-from biped_adrc.gait.exchange.samples import Samples, gait_of_samples, read_csv
+from biped_adrc.gait.exchange.samples import Samples, explained, gait_of_samples, read_csv
 from biped_adrc.gait.gait import FORMAT as STORED
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
@@ -147,9 +146,7 @@ def read_record(
     if suffix == ".csv":
         return read_csv(path), convention or OWN, path.name
     if suffix not in (".json", ".mat"):
-        raise InputError(
-            f"gait file '{path}' ends in '{path.suffix}', expected .json, .mat or .csv"
-        )
+        raise InputError(f"gait file '{path}', expected .json, .mat or .csv at its end")
     result = read_mat(path) if suffix == ".mat" else read_json(path, "gait file")
     with reading("gait file", path, GaitError):
         entries, source = all_entries(result), path.name
