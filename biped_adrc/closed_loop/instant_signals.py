@@ -12,11 +12,9 @@ mode the single support, its number and the time at which it began. Symbols:
     ^, m v_com    an estimate by the controller's observer; momentum of the whole robot (2,) [N s]
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
-from typing import Annotated, Any, NamedTuple, get_type_hints
+from typing import Annotated, Any, NamedTuple, Self, get_type_hints
 
 import numpy as np
 
@@ -137,7 +135,7 @@ class StepReading(NamedTuple):
     """Place (x, z) of the swing foot relative to the stance foot (2,) [m]."""
 
     @classmethod
-    def of(cls, q: Array, v: Array, s: Any) -> StepReading:
+    def of(cls, q: Array, v: Array, s: Any) -> Self:
         """Take them from q (n,) [rad], v (n,) [rad/s] and the other signals s at one instant, or at K nodes
         with a leading axis of K; s: an `InstantSignals`, or an `analysis.signals.Signals`.
         """

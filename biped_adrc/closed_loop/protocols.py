@@ -54,13 +54,8 @@ class Mode(NamedTuple):
     start: float = 0.0
 
 
-class Plant(Protocol):
-    """A robot: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces [N m] are (n,).
-
-    This is enough for the controller's model of a plant that moves by itself. A walker on the rigid plant
-    stands on one pinned foot and strikes the ground with the other: its plant also needs the methods that
-    `model.biped.Biped` and `model.planar_robot.PlanarRobot` have in common.
-    """
+class Motored(Protocol):
+    """A robot of n coordinates, of which the first p have motors."""
 
     @property
     def n(self) -> int:
@@ -69,6 +64,15 @@ class Plant(Protocol):
     @property
     def p(self) -> int:
         """Number of motors; they act on the first p coordinates."""
+
+
+class Plant(Motored, Protocol):
+    """A robot: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces [N m] are (n,).
+
+    This is enough for the controller's model of a plant that moves by itself. A walker on the rigid plant
+    stands on one pinned foot and strikes the ground with the other: its plant also needs the methods that
+    `model.biped.Biped` and `model.planar_robot.PlanarRobot` have in common.
+    """
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms D_s, Omega, kappa, xi and more, of (11)-(15) of the paper, at q (n,) [rad], v (n,) [rad/s].
@@ -212,17 +216,9 @@ class Feet(NamedTuple):
 
 
 @runtime_checkable
-class SteppingPlant(Protocol):
+class SteppingPlant(Motored, Protocol):
     """A plant that moves by itself: n coordinates, the first p of them with motors. A row (2 n + k,) is its
     whole state (q, q', own); see the module. Arrays that it gets are read-only."""
-
-    @property
-    def n(self) -> int:
-        """Number of coordinates."""
-
-    @property
-    def p(self) -> int:
-        """Number of motors."""
 
     @property
     def swap(self) -> Indices:

@@ -26,11 +26,9 @@ are two coordinates of one filter, (e_f, e_f', s) = T (e^, e'^, d^). In sampled 
 ADRC. In general m extended states make a C(s) of order m + 2 with m poles at zero.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from scipy.linalg import expm
@@ -146,7 +144,7 @@ class NPIDController(Controller):
         gains: Gains = TABLE_II,
         bandwidth: float = 500.0,
         reset: ResetPolicy = ResetPolicy.MODEL,
-    ) -> NPIDController:
+    ) -> Self:
         """The controller that is one loop with the output ADRC whose three observer poles are at -bandwidth
         [rad/s].
 
@@ -288,10 +286,10 @@ class NPIDController(Controller):
             return FilterState(*(self.T @ x))
         return self.filter_at(x, e)
 
-    def sampled(self, period: float) -> NPIDController:
+    def sampled(self, period: float) -> Self:
         return replace(self, period=period)
 
-    def continuous(self) -> NPIDController:
+    def continuous(self) -> Self:
         if self.period is not None:
             self._only_sampled()
         return self

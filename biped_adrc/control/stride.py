@@ -19,11 +19,9 @@ T is the value at impact of a state tau, tau' = 1, which is set to 0 after impac
 function of the state and not of time. In sampled time T counts to the last sample instant.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -129,7 +127,7 @@ class StridePI(OuterLoop):
         gains: StrideGains,
         speed: float | None = None,
         direction: tuple[float, ...] = TORSO_LEAN,
-    ) -> StridePI:
+    ) -> Self:
         """The PI around `inner` on a gait, with the gait's step length.
 
         speed [m/s]: v*, the gait's if None. direction (p,) [1]: d, by which the joints bend; by

@@ -11,8 +11,6 @@ same sentences. It has three rules:
     still there.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import math
@@ -27,7 +25,7 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -190,7 +188,7 @@ class CsvTable(NamedTuple):
     """Each line below: its number in the file, and as many entries as the first line has."""
 
     @classmethod
-    def read(cls, file: Path | str) -> CsvTable:
+    def read(cls, file: Path | str) -> Self:
         """Read a file; empty lines are left out. Raises InputError, with the number of the line, for one that
         has not as many entries as the first.
         """

@@ -5,12 +5,10 @@ Controllers and observers read and return trees. Integrators, stored runs and ma
 again.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -74,7 +72,7 @@ class Layout(NamedTuple):
     """Number of numbers in the tree."""
 
     @classmethod
-    def of(cls, tree: Any) -> Layout:
+    def of(cls, tree: Any) -> Self:
         """The layout of a tree."""
         if isinstance(tree, tuple):
             parts = tuple(map(cls.of, tree))

@@ -5,8 +5,6 @@ The structure of a function is all that decides its code, without the values of 
 trace is to run its Python once on symbols, which gives the expression that is compiled.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Mapping
 from typing import TYPE_CHECKING
 

@@ -17,13 +17,11 @@ references from machine code. The settings of the trajectory say what ran: "comp
 where the controller runs in Python, with the reason as "why".
 """
 
-from __future__ import annotations
-
 import math
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -72,7 +70,7 @@ class CompiledLoop(SteppingLoop):
     pushes: list[Call] | None = None
     """Terms of its disturbance in machine code; None where Python computes them."""
 
-    def prepared(self, x: Array) -> tuple[CompiledLoop, dict[str, str]]:
+    def prepared(self, x: Array) -> tuple[Self, dict[str, str]]:
         """A copy of the loop for one run from x (nx,), with work space of its own, and the trajectory's
         settings "engine" and "why".
 

@@ -11,15 +11,13 @@ impact does).
 their constraints as references.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -94,7 +92,7 @@ class Gait(Shown):
     @classmethod
     def of_cycle(
         cls, name: str, zero: ZeroDynamics, provenance: Mapping[str, object], slope: float = 0.0
-    ) -> Gait:
+    ) -> Self:
         """The gait of the constraint of `zero` with the periodic orbit of its zero dynamics.
 
         name, provenance: as the fields. slope [rad]: of the ground, positive downhill; only stored.
@@ -105,7 +103,7 @@ class Gait(Shown):
         robot, preset, period = zero.biped.description.name, zero.biped.preset, zero.cycle.period
         return cls(name, robot, preset, zero.constraint, q, v, period, provenance, slope)
 
-    def check_robot(self, biped: Biped) -> Gait:
+    def check_robot(self, biped: Biped) -> Self:
         """The gait itself. Raises GaitError if it was made for another robot or preset."""
         made, given = (self.robot, self.preset), (biped.description.name, biped.preset)
         if made != given:
@@ -115,7 +113,7 @@ class Gait(Shown):
             )
         return self
 
-    def check(self, biped: Biped) -> Gait:
+    def check(self, biped: Biped) -> Self:
         """The gait itself, after a check that it fits the robot: shapes, period, slope, both ends of the curve,
         the foot on the ground, and the direction of Theta. Raises GaitError for the first of these that does
         not hold.

@@ -5,10 +5,8 @@ between them by the cubic Hermite polynomial. `hybrid.simulator` makes trajector
 loops of `engine`; `hybrid.storage` writes them to disk, `analysis.signals` reads signals off them.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -68,7 +66,7 @@ class Arc(Shown):
         later = np.append(self.t[1:], self.t[-1])  # the next node's time, for the last node its own
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
 
-    def thinned(self, apart: float) -> Arc:
+    def thinned(self, apart: float) -> Self:
         """A copy of the arc with fewer nodes, at least `apart` [s] apart; ends and both sides of jumps stay."""
         # keep: at first both nodes of each pair of equal times, the first node and the last one
         same = np.diff(self.t) == 0.0

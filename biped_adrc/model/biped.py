@@ -25,14 +25,12 @@ the coordinate of the stance hip gets the angle of the former swing hip, and so 
 are twins. A body of the record, such as "thigh", is a link or both links that are twins.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, Self
 
 import numpy as np
 import pinocchio as pin
@@ -95,7 +93,7 @@ class Biped(Shown):
     @classmethod
     def load(
         cls, robot: str | Path = "rabbit", preset: str | None = None, friction: bool = False
-    ) -> Biped:
+    ) -> Self:
         """Load a robot by name or by the path of its robot.toml, with a parameter preset (None: its default).
 
         friction: add the record's viscous and static joint friction to the dynamics. Raises ModelError for an
@@ -106,7 +104,7 @@ class Biped(Shown):
         tree = description.tree(record.name)
         return cls(description, tree, record.name, record.armature, friction).check()
 
-    def check(self) -> Biped:
+    def check(self) -> Self:
         """Return this robot after both models are built and checked; raises ModelError for wrong numbers,
         unequal legs or motors without a twin.
 

@@ -10,12 +10,10 @@ thighs. Twins are a joint and its counterpart in the other leg. `ModelErrors.app
 controller keeps the robot without errors as nominal model.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -64,7 +62,7 @@ class ModelErrors(Checked, Shown):
         com: float = 0.1,
         inertia: float = 0.1,
         friction: float = 0.3,
-    ) -> ModelErrors:
+    ) -> Self:
         """Draw errors of every body, each uniform from -width to width, by a seed.
 
         mass, com, inertia, friction: the widths, dimensionless. Twin joints of both legs get one error. Errors
@@ -82,7 +80,7 @@ class ModelErrors(Checked, Shown):
         return cls(m, d, J, {joint: e for pair, e in by_pair for joint in pair})
 
     @classmethod
-    def of_friction(cls, biped: Biped, error: float) -> ModelErrors:
+    def of_friction(cls, biped: Biped, error: float) -> Self:
         """The same relative error [1] of friction in all joints with friction. Where there is none, `apply` of
         the result raises ModelError.
         """

@@ -44,10 +44,8 @@ place of the n + 4 of (7). D_e itself is singular for a robot whose mass is in o
 its methods on symbols, so none of them branches on a number.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -122,7 +120,7 @@ class PlanarRobot:
     _constant = True
 
     @classmethod
-    def of(cls, biped: Biped) -> PlanarRobot:
+    def of(cls, biped: Biped) -> Self:
         """The formulas of a robot, with the numbers of its Pinocchio model, and checked against that.
 
         Raises ModelError when it is no planar tree of rigid links.
@@ -143,7 +141,7 @@ class PlanarRobot:
         friction = biped.friction_coefficients if biped.friction else ()
         return cls(A.astype(int), K, biped.p, *legs, friction).check(biped)
 
-    def check(self, biped: Biped, samples: int = 20) -> PlanarRobot:
+    def check(self, biped: Biped, samples: int = 20) -> Self:
         """Return this robot after D_s, Omega and the swing foot are compared with Pinocchio's at random states.
 
         Raises ModelError where one differs by more than _EXACT times its largest entry, in SI units, or times
@@ -174,7 +172,7 @@ class PlanarRobot:
         return tuple(np.asarray(x) != 0.0 for x in self.K)
 
     @property
-    def sparse(self) -> PlanarRobot:
+    def sparse(self) -> Self:
         """A copy for the engine, where K holds symbols: an entry that is zero in the robot (not `present`)
         becomes a plain 0, so that its terms vanish from the expressions.
         """

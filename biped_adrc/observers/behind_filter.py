@@ -19,10 +19,8 @@ where the first row of Phi is (1 - s, 1, 1, 1/2, 1/6 ..), and L places all poles
 that does not know the filter takes its lag for a motion of the joint.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -88,9 +86,7 @@ class BehindFilterObserver(BehindChain, InjectedChain):
     MAKERS = ("from_bandwidth",)
 
     @classmethod
-    def from_bandwidth(
-        cls, bandwidth: float, filter_time: float, m: int = 1
-    ) -> BehindFilterObserver:
+    def from_bandwidth(cls, bandwidth: float, filter_time: float, m: int = 1) -> Self:
         """The observer with all m + 3 poles at -bandwidth [rad/s] behind a low-pass of filter_time [s].
 
         Raises InputError for values out of range.

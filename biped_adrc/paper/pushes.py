@@ -24,13 +24,11 @@ marginal, and no verdict on the paper rests on it. The outcomes of a walk:
     marginal    another word or status at half of the integration step
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
@@ -69,7 +67,7 @@ class Track(NamedTuple):
         """Largest |error|, between the nodes too [rad]."""
         return largest(self.t, self.error, self.derror)
 
-    def away_from(self, usual: Track, onset: float) -> float:
+    def away_from(self, usual: Self, onset: float) -> float:
         """max |error - error of `usual`| [rad] from the onset [s] on, while both walking steps last; NaN if
         they have no common time, or the error of `usual` is not finite.
 

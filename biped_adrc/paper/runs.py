@@ -19,12 +19,10 @@ the key in that field.
     Theta            phase of the gait [rad]
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from scipy.optimize import brentq
@@ -334,7 +332,7 @@ class Runs:
     """Figures of the numerical methods, one entry."""
 
     @classmethod
-    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Runs:
+    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Self:
         """Sort what the tasks of a plan returned into the fields; values: by the names of `tasks`."""
         kinds: dict[str, dict[str, Any]] = {}
         for of, value in values.items():

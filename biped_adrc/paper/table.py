@@ -25,14 +25,12 @@ scenario on which a verdict may depend, in words. Limits, and the choices under 
 admissible.toml, which was written before the runs.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from operator import attrgetter, methodcaller
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from biped_adrc.analysis.half_step import ROUND_OFF, AtTwoSteps
 from biped_adrc.core.files import packaged
@@ -69,7 +67,7 @@ class Probe(NamedTuple):
     @classmethod
     def of(
         cls, name: str, figure: AtTwoSteps, limit: _Bound, round_off: float, variant: str | None
-    ) -> Probe:
+    ) -> Self:
         """Compare the metric of a scenario, `figure`, with a limit at both integration steps.
 
         limit: makes the check of a value. round_off: largest change by halving the step that counts as none, in

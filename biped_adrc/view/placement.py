@@ -20,14 +20,12 @@ of it; the walk does not depend on where it is. An arc of a trajectory is one si
 where its stance foot stands, a node a stored instant. A placement is a homogeneous transform (4, 4).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -249,7 +247,7 @@ class WalkScene:
     """The walk, whose signals have the loads; None for a robot that stands, which has none."""
 
     @classmethod
-    def of(cls, walk: Drawable) -> WalkScene:
+    def of(cls, walk: Drawable) -> Self:
         """Lay a walk out along the ground, its first foothold at x = z = 0."""
         x, z = footholds(walk.walker, walk.trajectory).T
         return cls(walk.walker, walk.trajectory, x, z, walk)

@@ -37,11 +37,9 @@ an encoder's error through Theta and Theta' too.
 Torque and rate limits are left out, and encoder counts are an error that is independent from tick to tick.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -98,7 +96,7 @@ class FrozenGait(Shown):
         model: Biped | None = None,
         phases: tuple[float, ...] = PHASES,
         spread: float = SPREAD,
-    ) -> FrozenGait:
+    ) -> Self:
         """Linearise the plant, and its like with other inertias, at phases of the gait's orbit.
 
         model: robot on which the orbit is computed, the plant itself when None. phases: shares of the step's
@@ -166,7 +164,7 @@ class TickMatrices(NamedTuple):
     E: Array
     """(.., p, 2 n)."""
 
-    def reading(self, columns: slice) -> TickMatrices:
+    def reading(self, columns: slice) -> Self:
         """The tick that reads these columns of Y and E alone."""
         return self._replace(Y=self.Y[..., columns], E=self.E[..., columns])
 

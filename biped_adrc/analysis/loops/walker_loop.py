@@ -16,14 +16,12 @@ lambda = exp(s T) an eigenvalue over one period; modes with |s| <= `slow` are th
 over its foot, and do not count. All loops of a walker are computed together.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy.linalg import eig, expm
@@ -84,11 +82,11 @@ class WalkerLoops:
     slow: float
     """|s| [1/s] up to which a mode belongs to the gait and not to the loop; see `specification`."""
 
-    def __getitem__(self, at: Any) -> WalkerLoops:
+    def __getitem__(self, at: Any) -> Self:
         """Select loops by indices or slices along (phases, robots)."""
         return self._each(lambda x: x[at])
 
-    def _each(self, f: Callable[[Array], Array]) -> WalkerLoops:
+    def _each(self, f: Callable[[Array], Array]) -> Self:
         """The loops whose matrices are f of these."""
         axes = self.B.shape[:-2]
         # the tick has one entry along the axis of robots, which is repeated for each

@@ -7,12 +7,10 @@ of the torque and of its rate, and the queue of torques where it knows the delay
 motors and the delay itself belong to the robot. The nominal model is the robot as the controller knows it.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, Self, cast
 
 import numpy as np
 
@@ -178,7 +176,7 @@ class Noticed(Sensor):
                 "measured has no old labels; leave out touchdown"
             )
 
-    def sampled(self, n: int, p: int, period: float) -> Noticed:
+    def sampled(self, n: int, p: int, period: float) -> Self:
         return replace(self, inner=self.inner.sampled(n, p, period))
 
     def start(self, q: Array, v: Array) -> Landing:

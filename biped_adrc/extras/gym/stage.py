@@ -21,10 +21,8 @@ and Theta follow from them; u [N m] is the torque that has acted. The reward use
 so that a walk among many is the same as alone, bit for bit.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, Self
 
 import numpy as np
 
@@ -101,7 +99,7 @@ class LearnerTask(Checked, Shown):
             )
 
     @classmethod
-    def of(cls, scenario: Scenario | None, condition: str | None, **values: Any) -> LearnerTask:
+    def of(cls, scenario: Scenario | None, condition: str | None, **values: Any) -> Self:
         """Make the task of a scenario, or of a condition by name, "nothing" if both are None.
 
         A condition has the fields of `BASE` and of its own in conditions.toml. values: further fields of task

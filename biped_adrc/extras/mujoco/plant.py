@@ -28,15 +28,13 @@ stance foot and above its next foothold; from then on it has that height. So a p
 the air and gives no kick; a foot that does not clear a step up lands on the lower level from which it came.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from threading import get_ident
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -164,11 +162,11 @@ class MuJoCoPlant(Checked, Shown):
             engines[get_ident()] = MuJoCoEngine(self.biped, copy(self.model), *numbers)
         return engines[get_ident()]
 
-    def lagging(self, lag: float) -> MuJoCoPlant:
+    def lagging(self, lag: float) -> Self:
         """The same plant with motors of this lag [s]."""
         return replace(self, lag=lag)
 
-    def on_steps(self, steps: GroundSteps, first_step: int) -> MuJoCoPlant:
+    def on_steps(self, steps: GroundSteps, first_step: int) -> Self:
         """The same plant on steps of the ground, from single support `first_step` on."""
         return replace(self, ground_steps=steps, first_step=first_step)
 

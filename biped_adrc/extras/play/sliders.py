@@ -11,10 +11,8 @@ sampled time over its bandwidth, a table has them at round values of s. Of two s
 number the second is left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -80,7 +78,7 @@ class Slider(NamedTuple):
         middle = np.sqrt(self.low * self.high) if self.log else 0.4 * self.low + 0.6 * self.high
         return self.low, float(middle), self.high
 
-    def tabulated(self) -> Slider:
+    def tabulated(self) -> Self:
         """A copy of the slider with a table of its values: round ones of a logarithmic range, else 21 even
         ones.
         """
