@@ -218,9 +218,8 @@ def _certify_rough(biped: Biped, gait: Gait, request: GaitRequest) -> RoughGroun
     if not limits.rough:
         return None
     law = ReferenceReset(NPDController(continued(gait.constraint)))
-    rough = rough_ground(
-        Walker(biped, law), gait, Limits(limits.friction, limits.torque), forces=()
-    )
+    judged = Limits(limits.friction, limits.torque)
+    rough = rough_ground(Walker(biped, law), gait, judged, forces=())
     # an impulse that the request allows more friction does not count
     free = (IMPULSE,) if limits.impulse_friction > limits.friction else ()
     H, cause = rough.reach(but=free)

@@ -18,6 +18,7 @@ the grid, margins are linear. Noise is that of the walker's seed: of several see
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from numbers import Integral
 from types import NoneType
 from typing import NamedTuple
 
@@ -135,9 +136,8 @@ class RoughEstimate(Shown):
             rows.append(np.append(room, np.min(on_lines(at)[..., inside], axis=(1, 2))))
         margins = np.minimum.accumulate(rows).T
         found = [float(np.interp(0.0, -margin, H, right=np.inf)) for margin in margins]
-        return dict(
-            zip((GRID_END, *LIMITS), (min(found[0], float(H[-1])), *found[1:]), strict=True)
-        )
+        heights = min(found[0], float(H[-1])), *found[1:]
+        return dict(zip((GRID_END, *LIMITS), heights, strict=True))
 
     def reach(self, way: str = "both") -> Reach:
         """H of one way and what stops it: GRID_END or one of LIMITS."""
@@ -270,12 +270,11 @@ def rough_estimate(
     check_part(gait, "the gait of the walk", Gait)
     check_part(limits, "limits", Limits, NoneType)
     check_positive(highest, f"the largest height is {highest!r} m")
-    for count in grid if isinstance(grid, tuple) and len(grid) == 2 else (0,):
-        check_whole(
-            count, f"the grid is {grid!r}, of two odd numbers, of y and of heights; each", LEAST
-        )
-    if not (grid[0] % 2 and grid[1] % 2):
-        raise InputError(f"the grid is {grid}, expected two odd numbers, of y and of heights")
+    whole = grid if isinstance(grid, tuple) else ()
+    odd = [isinstance(x, Integral) and x >= LEAST and x % 2 == 1 for x in whole]
+    if odd != [True, True]:
+        what = f"two odd numbers, of y and of heights, at least {LEAST}"
+        raise InputError(f"the grid is {grid!r}, expected {what}")
     slope = gait.slope if walker.slope is None else walker.slope
     if slope != 0.0:
         raise InputError(f"the ground has a slope of {slope:g} rad, expected 0")

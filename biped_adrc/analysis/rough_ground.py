@@ -142,11 +142,9 @@ class RoughGround(Shown):
         """The same on ground of another friction mu [1]; `by_force` stays that of the first ground."""
         return replace(self, limits=self.limits._replace(friction=friction))
 
-    def mean_steps(self, H: float, but: Collection[str] = ()) -> float:
+    def mean_steps(self, H: float) -> float:
         """Mean number of the step that fails, counted from a level walk, over independent heights uniform in
-        [-H, H] m; infinite where all of them are walked.
-
-        but: names of limits that do not count. Raises InputError for heights beyond those of the map.
+        [-H, H] m; infinite where all of them are walked. Raises InputError for heights beyond those of the map.
         """
         highest = HIGHEST * robot_of(self.plant).leg
         if not 0.0 < H <= highest:
@@ -154,35 +152,28 @@ class RoughGround(Shown):
                 f"the heights are up to {H:g} m, expected above 0 and at most {highest:.3g} m, the share "
                 f"{HIGHEST:g} of the leg's length"
             )
-        if self.reach("both", but).height >= H:
+        if self.reach().height >= H:
             return float("inf")
         m, n = self.map, _NODES
         h = H * (2.0 * (np.arange(n) + 0.5) / n - 1.0)
         h = h[(h >= m.heights[0]) & (h <= m.heights[-1])]  # a step over another height fails
-        low, high = self._walked(h, but)
+        # bounds of y from below and above within which the step over each h is walked; FAR: no y is
+        lows, highs = zip(*self.within.values(), strict=True)
+        alone = np.min([*self.alone.values()], axis=0, initial=FAR)
+        bounds = np.max(lows, axis=0), np.min(highs, axis=0), alone
+        low, high, margin = (np.interp(h, m.heights, x) for x in bounds)
+        low = np.where(margin > 0.0, low, FAR)
         y = np.linspace(max(np.min(low), 0.0), np.max(m.steady), n)  # no y rises above all y*
         walked = (y > low[:, np.newaxis]) & (y < high[:, np.newaxis])
         a, b = (CubicSpline(m.heights, x)(h) for x in (m.delta2, -m.delta2 * m.V_2 - m.V_1))
         N = failing_step(y, np.outer(a, y) + b[:, np.newaxis], walked, np.full(len(h), 1.0 / n))
         return float(np.interp(m.steady[m.level], y, N))
 
-    def _walked(self, h: Array, but: Collection[str]) -> tuple[Array, Array]:
-        """Bounds of y from below and above within which the step over h (M',) [m] is walked."""
-        kept = [bounds for name, bounds in self.within.items() if name not in but]
-        margin = np.min(
-            [x for name, x in self.alone.items() if name not in but], axis=0, initial=FAR
-        )
-        low, high = np.max([x[0] for x in kept], axis=0), np.min([x[1] for x in kept], axis=0)
-        low, high, margin = (np.interp(h, self.map.heights, x) for x in (low, high, margin))
-        return np.where(margin > 0.0, low, FAR), high
-
     def text(self) -> str:
         """The numbers as lines of text."""
         H, level = self.reach().height, self.map.steady[self.map.level]
         low, high = (y / level for y in self.interval(H))
-        by_friction = (
-            f"{mu:g}: {1e3 * self.at_friction(mu).reach().height:.2f}" for mu in FRICTIONS
-        )
+        at = (f"{mu:g}: {1e3 * self.at_friction(mu).reach().height:.2f}" for mu in FRICTIONS)
         others = {"without the impulse": (IMPULSE,), "where motors clip": CLIPPED}
         rows = [
             *(
@@ -190,15 +181,14 @@ class RoughGround(Shown):
                 for text, but in {"": (), **others}.items()
                 for way in WAYS
             ),
-            ("H at mu, mm", ", ".join(by_friction)),
+            ("H at mu, mm", ", ".join(at)),
             *((f"H at {F:+g} N on the hip", str(reach)) for F, reach in self.by_force.items()),
             ("y at H", f"{low:.3f} to {high:.3f} of y on level ground"),
             ("gain", f"{0.1 * self.gain:.2f} % of zeta per mm"),
         ]
         if 0.0 < 1.3 * H <= HIGHEST * robot_of(self.plant).leg:
-            rows += [
-                ("a step fails", f"after {self.mean_steps(1.3 * H):.3g} in the mean, at 1.3 H")
-            ]
+            count = f"{self.mean_steps(1.3 * H):.3g}"
+            rows.append(("a step fails", f"after {count} in the mean, at 1.3 H"))
         return "\n".join(columns(rows))
 
 
@@ -250,9 +240,7 @@ def rough_ground(
     check_part(limits, "limits", Limits, NoneType)
     row = numbers(forces, "the forces on the hip")
     if row.ndim != 1 or not np.all(np.isfinite(row)):
-        raise InputError(
-            f"the forces on the hip are {forces!r}, expected a row of finite numbers [N]"
-        )
+        raise InputError(f"forces on the hip are {forces!r}, expected a row of finite numbers [N]")
     plant, k = walker.plant, (limits or Limits()).of(walker.plant.description)
     maps = {F: StrideMap.of(plant, h, share, F) for F in (0.0, *row.tolist())}
     if not len(maps[0.0].heights):

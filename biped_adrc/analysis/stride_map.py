@@ -265,16 +265,12 @@ class StrideMap(Shown):
         """Bounds of y from below and above, each (M,), by the limits of the step over each height, by name."""
         # the legs exchange their names from step to step: a coordinate has the slower of two joints
         fastest = np.min([[j.speed for j in side] for side in plant.motor_joints], axis=0)
-        before, after = (path.limits(k, fastest) for path in (self.second, self.first))
-        result = {}
-        for name, limit in before.items():
-            low, high = (
-                np.interp(self.landing, self.second.s, y) for y in self.second.bounds(limit)
-            )
+        first, second = self.first, self.second
+        after, result = first.limits(k, fastest), {}
+        for name, limit in second.limits(k, fastest).items():
+            low, high = (np.interp(self.landing, second.s, y) for y in second.bounds(limit))
             # delta^2 (y - V_2) is y_0 after the landing
-            low_0, high_0 = (
-                y[:, -1] / self.delta2 + self.V_2 for y in self.first.bounds(after[name])
-            )
+            low_0, high_0 = (y[:, -1] / self.delta2 + self.V_2 for y in first.bounds(after[name]))
             result[name] = np.maximum(low, low_0), np.minimum(high, high_0)
         return result
 
@@ -326,6 +322,5 @@ def landings(biped: Biped, h: VirtualConstraint, second: Path, heights: Array) -
     for _ in range(4):  # Newton's method, from an interpolation
         place, slope = swing_foot(biped, poses_on(h, s))
         s = s - (place.imag - heights) / slope.imag
-    return np.where(
-        (s > second.s[0]) & (swing_foot(biped, poses_on(h, s))[0].real > 0.0), s, np.nan
-    )
+    ahead = swing_foot(biped, poses_on(h, s))[0].real > 0.0
+    return np.where((s > second.s[0]) & ahead, s, np.nan)

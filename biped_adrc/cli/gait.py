@@ -219,9 +219,7 @@ def _say_rough(biped: ba.Biped, gait: ba.Gait) -> None:
     """Print how rough a ground the gait bears, continued and with ReferenceReset, or why that is not known."""
     from biped_adrc.gait.constraint import continued
 
-    console.print(
-        "heights of steps that all sequences may have, with ReferenceReset:", highlight=False
-    )
+    console.say("heights of steps that all sequences may have, with ReferenceReset:")
     try:
         law = ba.ReferenceReset(ba.NPDController(continued(gait.constraint)))
         console.say(ba.rough_ground(ba.Walker(biped, law), gait).text())

@@ -332,9 +332,8 @@ def noticed(
     if k.sensors is not None:
         after = k.sensors.impact(w, q_c, v_c, loop.nominal.R @ v_seen)
         w = chosen(fires, loop.checked(k.sensors, "impact", w, after), w)
-    m = loop.measure(
-        t, *sensor_readings(loop, k, w, q_c, v_c), mode._replace(step=step, start=start)
-    )
+    read = sensor_readings(loop, k, w, q_c, v_c)
+    m = loop.measure(t, *read, mode._replace(step=step, start=start))
     return m, loop.jumped(fires, s, m), w, Belief(other, step, start, d)
 
 

@@ -35,8 +35,6 @@ The estimates of sigma and r come from a momentum observer with its poles at -om
 gravity's part of the unactuated row.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -203,7 +201,7 @@ class Footstep(OuterLoop):
         pole: float = 0.35,
         bandwidth: float = 20.0,
         speeds: Sequence[float] = (),
-    ) -> Footstep:
+    ) -> Self:
         """The controller around `inner`, with a stored family of `biped`, by its name or file.
 
         speed [m/s], step [m]: those of the gait if None, and speed the last one of `speeds` [m/s], where there
@@ -305,9 +303,8 @@ class Footstep(OuterLoop):
         free = following(self.zero(lambda v: steps.cycle_square(v, ahead, r) - y_0))
         goal = free + (1.0 - self.pole / steps.delta_squared(speed, ahead)) * (y_0 - free)
         # the y of the cycles of the slowest and the fastest member
-        low, high = (
-            steps.cycle_square(v, ahead) for v in (self.family.low[0], self.family.high[0])
-        )
+        slowest, fastest = self.family.low[0], self.family.high[0]
+        low, high = (steps.cycle_square(v, ahead) for v in (slowest, fastest))
         goal = np.minimum(np.maximum(goal, low), high)
         return np.maximum(self.zero(lambda v: following(v) - goal), x.begin - SLOWER)
 

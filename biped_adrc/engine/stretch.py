@@ -14,8 +14,6 @@ The memory of the walks is a block of rows, each with one number of every walk (
 tick(K, from, to) reads a block and writes to another one; slope(K, block, _) and step(K, block, _) change one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -140,9 +138,8 @@ class _Block(Listing):
             factor = self.row(self.rows[at.WEIGHTS] + weight)
             for i in range(p):
                 aim = x[len(x) - p + i]
-                rest = self.new(
-                    f"fmul double {factor}, {self.new(f'fsub double {x[lags + i]}, {aim}')}"
-                )
+                off = self.new(f"fsub double {x[lags + i]}, {aim}")
+                rest = self.new(f"fmul double {factor}, {off}")
                 out[lags + i] = self.new(f"fadd double {aim}, {rest}")
         return out
 

@@ -162,10 +162,8 @@ class PinnedDynamics:
         # [1:]: without the world, which has index 0
         places, inertias = list(self.data.oMi)[1:], list(self.model.inertias)[1:]
         coms = [oMi.act(body.lever) for oMi, body in zip(places, inertias, strict=True)]
-        frames = (
-            pin.updateFramePlacement(self.model, self.data, k) for k in (self.swing, self.hip)
-        )
-        return np.array([*coms, *(frame.translation for frame in frames)])[:, XZ]
+        ends = (pin.updateFramePlacement(self.model, self.data, k) for k in (self.swing, self.hip))
+        return np.array([*coms, *(frame.translation for frame in ends)])[:, XZ]
 
 
 PIN_JOINT = "stance_pin"

@@ -146,9 +146,7 @@ class Observer(Part):
 
     def sampled(self, period: float) -> Observer:
         """The discrete form for ticks every `period` [s]. This base raises InputError: it has none."""
-        self._only(
-            "has no discrete form; give it a method sampled(period), or use ContinuousTime()"
-        )
+        self._only("has no discrete form; write sampled(period) for it, or use ContinuousTime()")
 
     # `once` keeps the result for each observer and period
     @once
@@ -160,9 +158,7 @@ class Observer(Part):
         check_part(found, f"what {type(self).__name__}.sampled returned", Observer)
         for name in ("correct", "predict"):
             if getattr(type(found), name) is getattr(Observer, name):
-                found._only(
-                    f"has no method {name}; write it for sampled time, or use ContinuousTime()"
-                )
+                found._only(f"has no method {name}; write it, or use ContinuousTime()")
         return found
 
     def error_system(self) -> ErrorSystem | None:

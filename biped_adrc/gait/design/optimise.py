@@ -107,9 +107,8 @@ def apart(
         """
         t = turned(robot.A, q)
         foot, hip = np.array(point(t, K.foot_re, K.foot_im)), point(t, K.hip_re, K.hip_im)
-        return np.concatenate(
-            (10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near))
-        )
+        off = 10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near)
+        return np.concatenate(off)
 
     return least_squares(miss, near, bounds=bounds).x
 
