@@ -100,11 +100,6 @@ class BehindFilterObserver(BehindChain, InjectedChain):
         """1 / (w tau) [1], w the `scale`."""
         return 1.0 / (self.scale * self.filter_time)
 
-    @property
-    def poles(self) -> tuple[complex, ...]:
-        """Poles of the error dynamics (m + 3,) [rad/s]."""
-        return equal_poles(self.scale, self.order)
-
     def flow(self, z: Array, y: Array, input: Array) -> Array:
         """z' (m + 3, p) for the angles y (p,) [rad] behind the filter and the input kappa u (p,) [rad/s^2]."""
         dz = super().flow(z, y, input / self.filter_time)

@@ -35,7 +35,6 @@ and `kalman` have the same observer with gains from other considerations.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -65,16 +64,16 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 
 @dataclass(frozen=True)
 class InjectedChain(ChainObserver):
-    """Base of the observers (17), whatever their gains; a subclass defines the `poles`.
+    """Base of the observers (17), whatever their gains; a subclass may define other `poles`.
 
     k = lead + m is the number of states per coordinate: m + 2 for the GPI observer, m + 1 for the momentum
     observer, which has one integrator between input and measurement (lead = 1). w is `scale`.
     """
 
     @property
-    @abstractmethod
     def poles(self) -> tuple[complex, ...]:
-        """Poles of the error dynamics (k,) [rad/s]."""
+        """Poles of the error dynamics (k,) [rad/s], all at -w."""
+        return equal_poles(self.scale, self.order)
 
     @derived
     def scaled_gains(self) -> Array:

@@ -68,11 +68,6 @@ class InternalModelObserver(InjectedChain):
         equal_poles(bandwidth, m + 4)
         return cls(int(m) + 2, float(bandwidth), omega)
 
-    @property
-    def poles(self) -> tuple[complex, ...]:
-        """Poles of the error dynamics (m + 2,) [rad/s], all at -w."""
-        return equal_poles(self.scale, self.order)
-
     @derived
     def scaled_gains(self) -> Array:
         """l_j / w^j (m + 2,), dimensionless: the series of a(s) / (1 + (omega / w)^2 / s^2), to 1 / s^k."""
