@@ -250,11 +250,9 @@ def supports(
     ]
     numbers = (t[n.last] - t[n.edges[:-1]], needed[-1], *(worst[name] for name in REASONS))
     columns: list[Any] = [n.steps, joints, *(x.tolist() for x in numbers)]
-    names, rows = (
-        ("step", "joints", "duration", "riser", *REASONS.values()),
-        zip(*columns, strict=True),
-    )
-    return tuple(Support(**dict(zip(names, row, strict=True)), limits=k) for row in rows)
+    names = ("step", "joints", "duration", "riser", *REASONS.values())
+    rows = (dict(zip(names, row, strict=True)) for row in zip(*columns, strict=True))
+    return tuple(Support(**row, limits=k) for row in rows)
 
 
 def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:

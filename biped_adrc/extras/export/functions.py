@@ -187,15 +187,12 @@ def fields_of(computer: Computer) -> tuple[Field, ...]:
     n, p, line = computer.robot.n, computer.robot.p, computer.held.line
     # parts of x: q, v, s, tail. A Field has name, length and words; `double`: also where the others are floats
     s, sensors = computer.layout.parts[2], computer.sensors
+    landed = int(isinstance(sensors, Noticed))
     sensed = (
         Field("angle", n, "angles of the sample instant before [rad]", double=True),
         Field("rate", n, "rates from differences, filtered [rad/s]"),
         Field("fresh", 1, "1 where no difference can be taken"),
-        Field(
-            "landed",
-            int(isinstance(sensors, Noticed)),
-            "1 between a touchdown and the step after it",
-        ),
+        Field("landed", landed, "1 between a touchdown and the step after it"),
     )
     # line: torques on their way, one after the other: queue, then waiting (p numbers or none), then acting (p)
     queue = line.place("queue").stop
