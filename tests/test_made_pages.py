@@ -12,7 +12,11 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 NOTEBOOK = ROOT / "examples" / "first_walk.ipynb"
 API = sorted((ROOT / "docs" / "api").glob("*.md"))
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *API]
+BUILT_PAGES = ROOT / "docs" / "_build"
+PAGES = [
+    ROOT / "README.md",
+    *(p for p in sorted((ROOT / "docs").rglob("*.md")) if BUILT_PAGES not in p.parents),
+]
 RAW = re.compile(r"\{[a-z]+(:[a-z]+)?\}`|^```\{|^:::|^\([\w-]+\)=$", re.MULTILINE)
 """Roles, directives and targets, which only Sphinx understands."""
 PLACE = re.compile(r"^<!-- (?:built:|(?:table|names|help|fields) of )", re.MULTILINE)
