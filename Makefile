@@ -10,7 +10,7 @@ BIN := .venv/bin
 BENCHMARKS := plant closed_loop sampled_walks batches compiling studies gait_design
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test check docs pictures verification bench format dev clean
+.PHONY: reproduce test check docs pictures verification findings bench format dev clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -44,6 +44,11 @@ pictures: .venv/.core
 # published results and closed forms beside those of the package, in docs/verification.csv
 verification: .venv/.core
 	$(BIN)/python -m validation --out docs/verification.csv
+
+# every finding again, from the stored settings: its walks, its rows and its page; goes on after a kill. With
+# ARGS=--search the settings are searched before, for hours
+findings: .venv/.test
+	$(BIN)/python -m validation.findings $(OUT)/findings $(ARGS)
 
 # tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 5 minutes; ARGS=--quick for a
 # look, CSV=docs/benchmarks.csv for the documentation. Peers that are not installed (pip install '.[bench]') are rows

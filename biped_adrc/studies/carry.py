@@ -19,6 +19,7 @@ to build walkers without walking them.
 """
 
 import itertools
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
@@ -154,7 +155,8 @@ class _Searched:
             again = search.ranked(again)
             stop = self.stop(base, again[0], len(result), partial(walk, "choice"))
             stop = ", ".join(f"not tuned: {n} at an end of its range" for n in ends) or stop
-            last = f"; the last doubling gained {gain:.2%}" if search.doublings else ""
+            gained = f"gained {gain:.2%}" if math.isfinite(gain) else "alone came within the limits"
+            last = f"; the last doubling {gained}" if search.doublings else ""
             return Choice(tuple(result), tuple(again), stop + last)
         self.runner.tell(failure)
         return failure

@@ -5,6 +5,7 @@ biped and gait are RABBIT and its published gait; any_biped is RABBIT with each 
 
 import json
 from math import comb
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -109,3 +110,28 @@ def test_missing_and_unreadable_gaits(tmp_path, biped, gait):
             ba.load_gait(name, biped)
     with pytest.raises(OutputError):
         gait.save(tmp_path / "text.json" / "g.json")
+
+
+def test_commands_that_stored_gaits_name_run():
+    """The command line of each is read without an error, and its limits and numbers are taken; a module has a
+    main part.
+    """
+    import shlex
+
+    import typer
+
+    from biped_adrc.cli.app import app
+
+    root = Path(__file__).resolve().parents[2]
+    group = typer.main.get_command(app)
+    for path in sorted((root / "gaits").rglob("*.json")):
+        command = json.loads(path.read_text())["provenance"]["command"]
+        if command.startswith("python -m "):
+            module = command.removeprefix("python -m ").replace(".", "/")
+            assert '__name__ == "__main__"' in (root / f"{module}.py").read_text(), path.name
+            continue
+        words = shlex.split(command)
+        assert words[:3] == ["biped-adrc", "gait", "design"], path.name
+        context = group.make_context("biped-adrc", words[1:], resilient_parsing=False)
+        inner = group.get_command(context, "gait").get_command(context, "design")
+        assert inner.make_context("design", words[3:]).params["minimise"] == "torque"

@@ -76,7 +76,7 @@ def study_of(
     conditions = {
         name: {"1 ms more": later, **PLAN["conditions"]}[name] for name in t["conditions"]
     }
-    behind = PLAN["variables_behind_encoders"] if hardware == "rabbit" else {}
+    beside = PLAN[f"variables_{hardware}"]
     sets = {"search": (SEARCH, t["seeds"]), "choice": (CHOICE, 20), "test": (REHEARSAL, 2)}
     return {
         "name": f"{hardware}, {gait}, {tuning}",
@@ -89,11 +89,12 @@ def study_of(
         },
         "search": {
             **PLAN["search"],
-            "budget": t["budget"],
+            "budget": t.get("fewer", {}).get(f"{hardware}, {gait}", t["budget"]),
+            "doublings": t["doublings"],
             "seed": 0 if more is None else 1000,
             "objective": t["objective"],
             "limits": t["limits"],
-            "variables": merged(PLAN["variables"], behind),
+            "variables": merged(PLAN["variables"], beside),
             "walks": {k: {"seeds": {"from": a, "count": n}} for k, (a, n) in sets.items()},
         },
     }
@@ -138,6 +139,15 @@ def searched(
             }
         )
     return rows
+
+
+def gathered(folder: Path) -> Iterator[dict[str, str]]:
+    """The rows of all searches, place by place."""
+    for at in places():
+        for path in (folder / f"{'-'.join(at)}.csv", folder / f"{'-'.join(at)}-more.csv"):
+            if path.exists():
+                with path.open(newline="") as file:
+                    yield from csv.DictReader(file)
 
 
 def main(out: str, *names: str) -> None:

@@ -99,3 +99,16 @@ def holm(p: list[float]) -> list[float]:
         most = max(most, min(1.0, (len(p) - rank) * p[i]))
         result[i] = most
     return result
+
+
+def alone(side: Side, measure: str, draws: int, seed: int = 0) -> Answer:
+    """The median error [rad], or the share of feasible walks, of the best search of one side, without a p."""
+    random = np.random.default_rng(seed)
+    middle: Any = np.median if measure == "error" else np.mean
+    x = side.errors if measure == "error" else np.isfinite(side.errors).astype(float)
+    drawn = random.integers(len(side.choice), size=(draws, len(side.choice)))
+    picks = drawn[np.arange(draws), np.argmin(side.choice[drawn], axis=1)]
+    walks = random.integers(x.shape[1], size=(draws, x.shape[1]))
+    found = middle(np.take_along_axis(x[picks], walks, axis=1), axis=1)
+    low, high = np.quantile(found, [0.025, 0.975], method="inverted_cdf")
+    return Answer(float(middle(x[side.best])), float(low), float(high), math.nan)

@@ -1,0 +1,137 @@
+"""The page of findings: its numbers are those of its rows, its test was fixed before it was walked, each of its
+studies walks, and its statistics keep laws that need no simulation.
+"""
+
+import csv
+import math
+import re
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.studies.study import read_study
+from validation.findings import comparison, page, statistics
+from validation.findings.__main__ import COMPARED, DECLARED, SOFT, STUDIES, counts
+from validation.findings.statistics import Side
+
+NAMES = (*COMPARED, SOFT, *DECLARED)
+
+
+def sides(ratio, searches=5, walks=20, seed=0):
+    """Two sides whose errors differ by a factor but for noise, with equal objectives of choice."""
+    random = np.random.default_rng(seed)
+    choice = random.uniform(1.0, 2.0, (2, searches))
+    errors = np.exp(random.normal(0.0, 0.2, (2, searches, walks)))
+    return Side(choice[0], ratio * errors[0]), Side(choice[1], errors[1])
+
+
+def test_the_page_is_that_of_its_rows():
+    assert page.PAGE.read_text() == page.text()
+
+
+def test_the_page_is_short_and_its_rows_are_small():
+    assert len(page.PAGE.read_text().split()) <= 2000
+    for path in page.ROWS.glob("*.csv"):
+        assert path.stat().st_size <= 150_000, path.name
+
+
+def test_the_rows_are_those_of_the_questions_that_stand_last_in_the_list_of_versions():
+    """The text's hash is in every row of its walks, and their seeds begin at the number that it gives."""
+    with (statistics.HERE / "versions.csv").open() as file:
+        versions = list(csv.DictReader(file))
+    assert versions[-1]["hash"] == statistics.text_hash()
+    for name in (*COMPARED, SOFT):
+        assert {r["question"] for r in page.rows(name)} == {statistics.text_hash()}
+        assert read_study(STUDIES / f"{name}.toml").seeds[0] == statistics.first_seed()
+
+
+def test_a_question_that_was_changed_after_its_walks_says_so(monkeypatch):
+    monkeypatch.setattr(statistics, "text_hash", lambda: "another")
+    assert "changed after its walks" in page.changed(("exact", "v0.6", "tracking", "NPD"))
+
+
+def test_each_study_of_the_comparison_is_that_of_its_settings():
+    rows = comparison.settings()
+    for name, at in COMPARED.items():
+        expected = comparison.toml(comparison.tables_of(*at, rows), comparison.comment(name))
+        assert (STUDIES / f"{name}.toml").read_text() == expected
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_study_walks(name, tmp_path):
+    """In a form of seconds: the first and the last case under one condition, one seed, four impacts."""
+    study = read_study(STUDIES / f"{name}.toml")
+    cases = [*study.cases.items()]
+    short = {
+        "base": {**study.base, "run.impacts": 4},
+        "cases": dict([cases[0], cases[-1]]),
+        "conditions": dict([*study.conditions.items()][:1]),
+        "grid": {k: x[:1] for k, x in study.grid.items()},
+        "seeds": study.seeds[:1],
+    }
+    with ThreadPoolExecutor(1) as executor:
+        found = ba.study(study.model_copy(update=short), tmp_path, executor)
+    rows = list(counts(found))
+    assert [r["walks"] for r in rows] == [1, 1]
+    assert all(r["status"] not in ("REFUSED", "RAISED") for r in found.rows())
+
+
+def test_equal_sides_do_not_differ():
+    one, _ = sides(1.0)
+    found = statistics.compared(one, one, "error", 2000)
+    assert (found.value, found.p) == (1.0, pytest.approx(1.0, abs=0.2))
+    assert found.low <= 1.0 <= found.high
+
+
+def test_a_ratio_is_found_and_its_interval_holds_it_as_often_as_it_says():
+    """Of 200 samples with a true ratio of 0.8 about 95 % of the intervals of 95 % hold it."""
+    holds = 0
+    for seed in range(200):
+        one, other = sides(0.8, seed=seed)
+        found = statistics.compared(one, other, "error", 400, seed)
+        holds += found.low <= 0.8 <= found.high
+    assert 0.9 <= holds / 200 <= 1.0
+
+
+def test_two_infeasible_walks_tie_and_one_decides():
+    infinite, one = np.full((1, 20), np.inf), np.ones((1, 20))
+    choice = np.ones(1)
+    tie = statistics.compared(Side(choice, infinite), Side(choice, infinite), "error", 500)
+    assert (tie.value, tie.p) == (1.0, 1.0)
+    lost = statistics.compared(Side(choice, infinite), Side(choice, one), "error", 500)
+    assert lost.value == math.inf
+    assert lost.p < 0.01
+    share = statistics.compared(Side(choice, one), Side(choice, infinite), "share", 500)
+    assert (share.value, share.low, share.high) == (1.0, 1.0, 1.0)
+
+
+def test_the_interval_draws_searches():
+    """Walks that agree to the last digit leave no width; searches that differ do."""
+    walks = np.ones((5, 20))
+    spread = walks * np.array([[1.0], [1.2], [1.4], [1.6], [2.0]])
+    choice = np.array([1.0, 1.2, 1.4, 1.6, 2.0])
+    found = statistics.compared(Side(choice, spread), Side(np.ones(5), walks), "error", 4000)
+    assert found.value == found.low == 1.0
+    assert found.high > 1.1
+
+
+def test_holm():
+    """p 0.01, 0.02, 0.03 of four with 0.5: times 4, 3, 2, and never less than the one before."""
+    assert statistics.holm([0.03, 0.5, 0.01, 0.02]) == pytest.approx([0.06, 0.5, 0.04, 0.06])
+
+
+def test_the_numbers_of_the_readme_are_those_of_the_page():
+    """Its first question with the interval, and how many walks are feasible."""
+    words = " ".join((page.ROOT / "README.md").read_text().split())
+    assert f"leaves **{page.said(page.answers()[0][1])}** of NPD's tracking error" in words
+    at = ("rabbit", "v0.6", "tracking")
+    adrc, npd = (page.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
+    assert f"Feasible are {adrc} of 20 walks, under NPD {npd}." in words
+
+
+def test_each_number_of_a_question_stands_on_the_page():
+    text = page.PAGE.read_text()
+    for _, answer, _ in page.answers():
+        assert re.sub(r"\s+", " ", page.said(answer)) in re.sub(r"\s+", " ", text)
