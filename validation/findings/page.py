@@ -145,7 +145,7 @@ def declared(
 def sizes(at: Place, condition: str = PUSH) -> str:
     """The median error of the best search: in mrad, in counts of the encoder, in mm of the foot."""
     e = statistics.alone(known(at, condition), "error", DRAWN).value
-    return f"{1e3 * e:.2g} mrad, {e / COUNT:.2g} counts, {1e3 * LEG * e:.2g} mm"
+    return f"{1e3 * e:.2g} mrad ({e / COUNT:.2g} counts, {1e3 * LEG * e:.2g} mm of the foot)"
 
 
 def feasible(at: Place, condition: str = PUSH, name: str = "") -> str:
