@@ -226,8 +226,14 @@ def soft() -> dict[tuple[str, str], Any]:
 def fields() -> dict[str, Any]:
     """What stands in the places of the text, by name."""
     rabbit, exact = ("rabbit", "v0.6", "tracking"), ("exact", "v0.6", "tracking")
+    rough = ("rabbit", "rough", "tracking")
     ground = {gait: ("rabbit", gait, "ground", "m = 1") for gait in PLAN["gaits"]}
     of_ground, of_tracking = ("exact", "v0.6", "ground", "NPD"), (*exact, "NPD")
+    walked_10 = [
+        fine((hardware, "v0.6", "ground", c), "10 mm")
+        for hardware in PLAN["hardware"]
+        for c in PLAN["controllers"]
+    ]
     return {
         **{f"q{i}": question(*x) for i, x in enumerate(answers(), 1)},
         "walks": statistics.questions()["walks"],
@@ -238,7 +244,18 @@ def fields() -> dict[str, Any]:
             m1x=micro((*exact, "m = 1")),
             npdx=micro((*exact, "NPD")),
         ),
-        "push": Names(m1=feasible((*rabbit, "m = 1")), npd=feasible((*rabbit, "NPD"))),
+        "push": Names(
+            m1=fine((*rabbit, "m = 1"), PUSH),
+            npd=fine((*rabbit, "NPD"), PUSH),
+            m1hip=fine((*rabbit, "m = 1"), "hip, 2 N"),
+            npdhip=fine((*rabbit, "NPD"), "hip, 2 N"),
+        ),
+        "limit": Names(
+            npd=fine((*rabbit, "NPD"), comparison.LATER),
+            m1=fine((*rabbit, "m = 1"), comparison.LATER),
+        ),
+        "range": Names(low=min(walked_10), high=max(walked_10)),
+        "failed": failed(),
         "stop": stops(),
         "exact": Names(
             **{
@@ -251,8 +268,17 @@ def fields() -> dict[str, Any]:
                 )
             }
         ),
-        "ground": Names(tuned=feasible(of_ground, "10 mm"), tracked=feasible(of_tracking, "10 mm")),
+        "ground": Names(
+            tuned=feasible(of_ground, "10 mm"),
+            tracked=feasible(of_tracking, "10 mm"),
+            each=", ".join(str(np.isfinite(x).sum()) for x in known(of_ground, "10 mm").errors),
+        ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
+        "again": Names(
+            npd=ratio_said((*rough, "m = 1"), (*rough, "NPD")),
+            npd_value=ratio_said((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
+            pid=ratio_said((*rough, "m = 1"), (*rough, "PID")),
+        ),
         "margin": Names(
             b0=margin((*exact, "ADRC b0"), "disk_margin"),
             m1=margin((*exact, "m = 1"), "disk_margin"),
@@ -262,26 +288,38 @@ def fields() -> dict[str, Any]:
             tracking=f"{1e3 * float(margin(of_tracking, 'H')):.2g}",
         ),
         "gait": Names(
-            rough20=feasible(ground["rough"], "20 mm"), level20=feasible(ground["v0.6"], "20 mm")
+            rough20=feasible(ground["rough"], "20 mm"),
+            level20=feasible(ground["v0.6"], "20 mm"),
+            pd20=feasible(("rabbit", "v0.6", "ground", "PD"), "20 mm"),
+            exact=said(
+                statistics.compared(
+                    known(("exact", "rough", "ground", "m = 1"), "10 mm"),
+                    known(("exact", "v0.6", "ground", "m = 1"), "10 mm"),
+                    "share",
+                    DRAWN,
+                )
+            ),
         ),
-        "load": Names(light=by_name(rabbit, "masses x 0.7"), heavy=by_name(rabbit, "masses x 1.5")),
+        "load": Names(
+            light=by_name(rabbit, "masses x 0.7"),
+            heavy=by_name(rabbit, "masses x 1.5"),
+            ground=feasible(ground["v0.6"], "masses x 0.7"),
+        ),
         "soft": of_soft(),
         "hip": Names(
             npd=largest_force("NPD", "exact sensors"),
             pi=largest_force("stride PI", "exact sensors"),
-            step=max(
-                largest_force(r["case"], "exact sensors")
-                for r in rows("held_hip_force")
-                if r["case"].startswith("footstep")
-            ),
+            step=largest_force("footstep, 0.25 m", "exact sensors"),
+            late=largest_force("footstep, 0.25 m", "encoders, 1 ms late"),
+            later=largest_force("footstep, 0.34 m", "encoders, 1 ms late"),
         ),
         "spread": Names(npd=spread((*rabbit, "NPD")), m1=spread((*rabbit, "m = 1"))),
         "rough": Names(searched=searched_at("rabbit", "rough", "ground")),
         "heights": Names(rough=walked_of("reset, rough", "20 mm")),
         "orders": Names(
             most=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (1, 2, 3, 5, 7)),
-            sine1=f"{orders()['m = 1', 'sine, 20 N m'][0]:.2g}",
-            sine2=f"{orders()['m = 2', 'sine, 20 N m'][0]:.2g}",
+            sine1=at_least("m = 1", "sine, 20 N m"),
+            sine2=at_least("m = 2", "sine, 20 N m"),
         ),
     }
 
@@ -335,7 +373,10 @@ def stops() -> Names:
     better = sum(x.startswith("not tuned: better") for x in every)
     rounded = sum("rounded" in x for x in every)
     limit = sum("1 ms more" in x for x in every if not x.startswith("not tuned"))
-    return Names(count=len(every), limit=limit, better=better, rounded=rounded)
+    ground = [r["stop"] for r in rows("margins") if r["tuning"] == "ground"]
+    untuned = sum(x.startswith("not tuned") for x in ground)
+    words = f"{untuned} of {len(ground)}"
+    return Names(count=len(every), limit=limit, better=better, rounded=rounded, ground=words)
 
 
 def by_name(at: tuple[str, str, str], condition: str) -> str:
@@ -346,14 +387,38 @@ def by_name(at: tuple[str, str, str], condition: str) -> str:
 
 
 def of_soft() -> Names:
-    """Feasible walks on MuJoCo's ground, of all and by controller."""
-    walked: dict[str, list[int]] = {}
+    """Feasible walks on MuJoCo's ground, level and pushed, by controller."""
+    walked: dict[str, int] = {}
     for r in rows("compared_soft"):
-        fine, count = walked.setdefault(r["controller"], [0, 0])
-        walked[r["controller"]] = [fine + int(r["feasible"]), count + len(r["errors"].split())]
-    each = ", ".join(f"{name} {fine}" for name, (fine, _) in walked.items())
-    total = [sum(x) for x in zip(*walked.values(), strict=True)]
-    return Names(all=f"{total[0]} of {total[1]}", each=each)
+        if r["condition"] != "trunk +30 %":
+            walked[r["controller"]] = walked.get(r["controller"], 0) + int(r["feasible"])
+    return Names(each=", ".join(f"{name} {count}" for name, count in walked.items()))
+
+
+def fine(at: Place, condition: str) -> int:
+    """The number of feasible walks of the best search."""
+    found = known(at, condition)
+    return int(np.isfinite(found.errors[found.best]).sum())
+
+
+def at_least(order: str, condition: str) -> str:
+    """The least median error of an order over bandwidths, with the feasible walks there."""
+    mine = [r for r in rows("orders") if (r["case"], r["condition"]) == (order, condition)]
+    errors = [
+        float(np.median([math.inf if x == "-" else 1e-3 * float(x) for x in r["errors"].split()]))
+        for r in mine
+    ]
+    best = int(np.argmin(errors))
+    return (
+        f"{errors[best]:.2g} mrad with {mine[best]['feasible']} of {mine[best]['walks']} feasible"
+    )
+
+
+def failed() -> str:
+    """How many searches found no setting within the limits, and how many chose the case as it was."""
+    every = [r["values"] for r in rows("settings")]
+    none, before = every.count(""), every.count("{}")
+    return f"{none} of {len(every)} found no setting, {before} chose the controller's defaults"
 
 
 def walked_of(case: str, condition: str) -> str:
