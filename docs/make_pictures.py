@@ -63,28 +63,34 @@ SEEDS, SHOWN = range(50000, 50020), 50009
 """The grounds that README.md counts, and the one that it shows."""
 
 
-def headline() -> None:
-    """README's picture: NPD behind RABBIT's encoders, tuned for the ground by the searches of the findings, on
-    the same ground of 20 mm with two gaits. Prints how many of 20 such grounds are walked, as README says.
+def on_ground(gait: str) -> dict[str, Any]:
+    """Values of README's walk: NPD behind RABBIT's encoders, tuned for the ground by the searches of the
+    findings on this gait, on ground of 20 mm.
     """
-    walks = {}
-    for name, gait in (("v0.6", "v0.6"), ("gait for rough ground", "rough")):
-        (row,) = (
-            r
-            for r in comparison.best_of(comparison.settings())
-            if (r["hardware"], r["gait"], r["tuning"], r["controller"])
-            == ("rabbit", gait, "ground", "NPD")
-        )
-        tables = comparison.tables_of("rabbit", "ground", [row])
-        (case,) = tables["cases"].values()
-        more = {"run": {"impacts": 12}, "ground": {"step_height": 0.02}}
-        values = searches.merged(tables["base"], case, more)
-        found = run_trials(
-            [{**read_study({"name": name, "base": values}).base, SEED: i} for i in SEEDS]
-        )
-        print(name, Counter(row["outcome"] for row in found))
-        values = searches.merged(values, {"run": {"seed": SHOWN}})
-        walks[name] = walk_scenario(Scenario(**values))
+    (row,) = (
+        r
+        for r in comparison.best_of(comparison.settings())
+        if (r["hardware"], r["gait"], r["tuning"], r["controller"])
+        == ("rabbit", gait, "ground", "NPD")
+    )
+    tables = comparison.tables_of("rabbit", "ground", [row])
+    (case,) = tables["cases"].values()
+    more = {"run": {"impacts": 12}, "ground": {"step_height": 0.02}}
+    return searches.merge(tables["base"], case, more)
+
+
+def outcomes(gait: str) -> Counter[str]:
+    """How README's walks on the grounds SEEDS end."""
+    values = read_study({"name": gait, "base": on_ground(gait)}).base
+    return Counter(row["outcome"] for row in run_trials([{**values, SEED: i} for i in SEEDS]))
+
+
+def headline() -> None:
+    """README's picture: the same ground with two gaits."""
+    walks = {
+        name: walk_scenario(Scenario(**searches.merge(on_ground(gait), {"run": {"seed": SHOWN}})))
+        for name, gait in (("v0.6", "v0.6"), ("gait for rough ground", "rough"))
+    }
     moving_picture(IMAGES / "ground.gif", walks, Clip(start=3.6, stop=5.9, fps=10.0, apart=True))
 
 

@@ -3,6 +3,7 @@ studies walks, and its statistics keep laws that need no simulation.
 """
 
 import csv
+import importlib
 import math
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -49,7 +50,7 @@ def test_the_rows_are_those_of_the_questions_that_stand_last_in_the_list_of_vers
 
 def test_a_question_that_was_changed_after_its_walks_says_so(monkeypatch):
     monkeypatch.setattr(statistics, "text_hash", lambda: "another")
-    assert "changed after its walks" in page.changed(("exact", "v0.6", "tracking", "NPD"))
+    assert "changed after its walks" in page.warning(("exact", "v0.6", "tracking", "NPD"))
 
 
 def test_each_study_of_the_comparison_is_that_of_its_settings():
@@ -80,7 +81,7 @@ def test_each_study_walks(name, tmp_path):
 
 def test_equal_sides_do_not_differ():
     one, _ = sides(1.0)
-    found = statistics.compared(one, one, "error", 2000)
+    found = statistics.compare(one, one, "error", 2000)
     assert (found.value, found.p) == (1.0, pytest.approx(1.0, abs=0.2))
     assert found.low <= 1.0 <= found.high
 
@@ -90,7 +91,7 @@ def test_a_ratio_is_found_and_its_interval_holds_it_as_often_as_it_says():
     holds = 0
     for seed in range(200):
         one, other = sides(0.8, seed=seed)
-        found = statistics.compared(one, other, "error", 400, seed)
+        found = statistics.compare(one, other, "error", 400, seed)
         holds += found.low <= 0.8 <= found.high
     assert 0.9 <= holds / 200 <= 1.0
 
@@ -98,12 +99,12 @@ def test_a_ratio_is_found_and_its_interval_holds_it_as_often_as_it_says():
 def test_two_infeasible_walks_tie_and_one_decides():
     infinite, one = np.full((1, 20), np.inf), np.ones((1, 20))
     choice = np.ones(1)
-    tie = statistics.compared(Side(choice, infinite), Side(choice, infinite), "error", 500)
+    tie = statistics.compare(Side(choice, infinite), Side(choice, infinite), "error", 500)
     assert (tie.value, tie.p) == (1.0, 1.0)
-    lost = statistics.compared(Side(choice, infinite), Side(choice, one), "error", 500)
+    lost = statistics.compare(Side(choice, infinite), Side(choice, one), "error", 500)
     assert lost.value == math.inf
     assert lost.p < 0.01
-    share = statistics.compared(Side(choice, one), Side(choice, infinite), "share", 500)
+    share = statistics.compare(Side(choice, one), Side(choice, infinite), "share", 500)
     assert (share.value, share.low, share.high) == (1.0, 1.0, 1.0)
 
 
@@ -112,7 +113,7 @@ def test_the_interval_draws_searches():
     walks = np.ones((5, 20))
     spread = walks * np.array([[1.0], [1.2], [1.4], [1.6], [2.0]])
     choice = np.array([1.0, 1.2, 1.4, 1.6, 2.0])
-    found = statistics.compared(Side(choice, spread), Side(np.ones(5), walks), "error", 4000)
+    found = statistics.compare(Side(choice, spread), Side(np.ones(5), walks), "error", 4000)
     assert found.value == found.low == 1.0
     assert found.high > 1.1
 
@@ -125,13 +126,25 @@ def test_holm():
 def test_the_numbers_of_the_readme_are_those_of_the_page():
     """Its first question with the interval, and how many walks are feasible."""
     words = " ".join((page.ROOT / "README.md").read_text().split())
-    assert f"leaves **{page.said(page.answers()[0][1])}** of NPD's tracking error" in words
+    assert f"leaves **{page.in_words(page.answers()[0][1])}** of NPD's tracking error" in words
     at = ("rabbit", "v0.6", "tracking")
     adrc, npd = (page.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
     assert f"Feasible are {adrc} of 20 walks, under NPD {npd}." in words
 
 
+def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
+    """Of 20 grounds v0.6 falls or stalls on 3 and walks none feasibly; the gait for rough ground walks all."""
+    monkeypatch.syspath_prepend(str(page.ROOT / "docs"))
+    pictures = importlib.import_module("make_pictures")
+    left, right = (pictures.outcomes(gait) for gait in ("v0.6", "rough"))
+    words = " ".join((page.ROOT / "README.md").read_text().split())
+    assert f"Of {left.total()} such grounds" in words
+    assert f"falls or stalls on {left['fell'] + left['ended']} and walks none feasibly" in words
+    assert left["feasible"] == 0
+    assert f"walks all {right['feasible']}." in words
+
+
 def test_each_number_of_a_question_stands_on_the_page():
     text = page.PAGE.read_text()
     for _, answer, _ in page.answers():
-        assert re.sub(r"\s+", " ", page.said(answer)) in re.sub(r"\s+", " ", text)
+        assert re.sub(r"\s+", " ", page.in_words(answer)) in re.sub(r"\s+", " ", text)

@@ -55,7 +55,7 @@ def optuna_library() -> Any:
     return optuna
 
 
-class Searched(NamedTuple):
+class SearchEnd(NamedTuple):
     """A search that has ended."""
 
     candidates: list[Candidate]
@@ -72,7 +72,7 @@ def searched(
     walk: WalkAll,
     report: Callable[[Candidate], None],
     seed: int | None = None,
-) -> Searched:
+) -> SearchEnd:
     """Search a case with the values `base`, round by round, until a round moves nothing.
 
     walk: walks the candidates of a generation. report: called with the best candidate after each generation.
@@ -81,20 +81,20 @@ def searched(
     that are known without a walk. Raises InputError where Optuna is missing.
     """
     proposals = _Proposals(optuna_library(), search, base, search.seed if seed is None else seed)
-    result, numbers = list[Candidate](), itertools.count()
+    result, numbers = proposals.judged, itertools.count()
     gain, ends = math.inf, dict[str, Span]()
     for doubled in range(search.doublings + 1):
         before, most = search.ranked(result)[:1], search.first(base) << doubled
-        result += _round(search, base, proposals, numbers, most - _walked(result), walk, report)
+        _round(search, base, proposals, numbers, most, walk, report)
         best = search.ranked(result)[0]
         ends = proposals.ends(best)
-        gain = search.gained(before[0], best) if before else math.inf
+        gain = search.gain(before[0], best) if before else math.inf
         if _walked(result) < most or (doubled and not ends and gain < ENOUGH):
             break
         if doubled < search.doublings:
             proposals.widen(ends)
             proposals.refine(result, again=True)
-    return Searched(result, gain, tuple(ends))
+    return SearchEnd(result, gain, tuple(ends))
 
 
 def _walked(found: Sequence[Candidate]) -> int:
@@ -107,15 +107,15 @@ def _round(
     base: Values,
     proposals: _Proposals,
     numbers: Iterator[int],
-    count: int,
+    most: int,
     walk: WalkAll,
     report: Callable[[Candidate], None],
-) -> list[Candidate]:
-    """Walk `count` candidates more, generation by generation; returns them with those that were judged without
-    a walk. There are fewer where all proposals of a generation missed limits that are known without a walk.
+) -> None:
+    """Walk candidates, generation by generation, until `most` have been walked in all, and add them to
+    `proposals.judged`. There are fewer where all proposals of a generation miss limits that are known without a
+    walk.
     """
-    result: list[Candidate] = []
-    while (left := count - _walked(result)) > 0:
+    while (left := most - _walked(proposals.judged)) > 0:
         # those to be walked in this generation, and all that are judged in it
         batch, new = list[Candidate](), list[Candidate]()
         for number in itertools.islice(numbers, _ASKED * search.generation):
@@ -134,11 +134,9 @@ def _round(
         for c, walks in zip(batch, walk(batch), strict=True):
             new.append(search.judged(base, c.number, c.chosen, walks))
             proposals.tell(new[-1])
-        result += sorted(new, key=lambda c: c.number)
         proposals.judged += sorted(new, key=lambda c: c.number)
         report(search.ranked(proposals.judged)[0])  # the best one so far
         proposals.refine(proposals.judged)  # to CMA-ES, when TPE's part is spent
-    return result
 
 
 class _Proposals:

@@ -206,7 +206,7 @@ class Search(Section):
         walked, sign = [c for c in found if c.walked], self.objective.sign
         return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
 
-    def gained(self, before: Candidate, after: Candidate) -> float:
+    def gain(self, before: Candidate, after: Candidate) -> float:
         """The share [1] of the objective by which a candidate is better than another one, negative where it is
         worse; infinite where one of them misses a limit, or the objective is 0 or infinite.
         """
@@ -217,20 +217,23 @@ class Search(Section):
 
     def beside(self, base: Values, c: Candidate) -> dict[str, dict[str, Any]]:
         """Settings beside that of a candidate, each as its values of the variables: one variable that is a
-        number moved by STEP of its range, down or up. The keys say which, as "controller.K_p up".
+        number shifted by STEPS of its range, down or up. The keys say which, as "controller.K_p up".
         """
         ranges = {n: v.range for n, v in self.acting(base).items() if v.range and n in c.chosen}
         moves = ((n, r, word, w) for n, r in ranges.items() for word, w in STEPS.items())
-        beside = {f"{n} {word}": (n, r.moved(c.chosen[n], w)) for n, r, word, w in moves}
+        beside = {f"{n} {word}": (n, r.shift(c.chosen[n], w)) for n, r, word, w in moves}
         return {key: c.chosen | {n: x} for key, (n, x) in beside.items() if x != c.chosen[n]}
 
     def stop(self, c: Candidate, beside: Mapping[str, Candidate]) -> str:
-        """What stopped the search at a candidate, in words. beside: the settings of `beside`, walked.
+        """What stopped the search at a candidate, in words. beside: the settings of `beside`, walked; none for
+        the case itself.
 
         A step misses a limit, makes the objective worse, or changes it by less than ENOUGH, which is flat. A
         step that makes it better by more says that the candidate is not tuned.
         """
-        gains = {k: self.gained(c, x) for k, x in beside.items() if x.feasible}
+        if not beside:
+            return "not tuned: nothing better than the case itself was found"
+        gains = {k: self.gain(c, x) for k, x in beside.items() if x.feasible}
         if better := [f"{k} by {x:.0%}" for k, x in gains.items() if x >= ENOUGH]:
             return f"not tuned: better with {', '.join(better)}"
         words = {

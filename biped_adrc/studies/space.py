@@ -93,13 +93,13 @@ class Span(Section):
             return self.low * (self.high / self.low) ** w
         return self.low + (self.high - self.low) * w
 
-    def of(self, x: float) -> float:
+    def share(self, x: float) -> float:
         """w of a value of the interval: 0 at low, 1 at high."""
         if self.scale == "log":
             return math.log(x / self.low) / math.log(self.high / self.low)
         return (x - self.low) / (self.high - self.low)
 
-    def moved(self, x: float, w: float) -> float:
+    def shift(self, x: float, w: float) -> float:
         """x moved by the share w of the width, on the scale of the interval, perhaps out of it; an interval
         from 0 on is not left downwards, and a whole number moves by 1 at least.
         """
@@ -113,7 +113,7 @@ class Span(Section):
         """The interval with the end near which x stands moved outwards by its width; None where x stands at
         none, or at 0, which stays an end.
         """
-        w, low, high = self.of(x), self.low, self.high
+        w, low, high = self.share(x), self.low, self.high
         log = self.scale == "log"
         if w > 1.0 - EDGE:
             return self.model_copy(update={"high": high * high / low if log else 2.0 * high - low})

@@ -33,7 +33,7 @@ COMPARED = {
     for hardware in ("exact", "rabbit")
     for tuning in ("tracking", "ground")
 }
-SOFT = "compared_soft"
+SOFT = "comparison_soft"
 DECLARED = ("orders", "held_hip_force", "laws_and_gaits")
 """Studies whose rows are counts of feasible walks and errors."""
 
@@ -82,7 +82,7 @@ def margins(rows: list[dict[str, str]]) -> Iterable[dict[str, Any]]:
         # margins and H are those of the nominal robot at the nominal delay
         base = {k: v for k, v in tables["base"].items() if k not in ("errors", "start")}
         (case,) = (x for name, x in tables["cases"].items() if not name.startswith("Table I"))
-        values = searches.merged(base, case, {"gait": {"continued": True}})
+        values = searches.merge(base, case, {"gait": {"continued": True}})
         s = scenario_of(read_study({"name": "one", "base": values}).base)
         scene = scene_of(s)
         keys = ("hardware", "gait", "tuning", "controller", "search")
@@ -160,7 +160,7 @@ def main() -> None:
     a = parser.parse_args()
     if a.search:
         searches.main(str(a.out / "searches"))
-        write_rows(comparison.SETTINGS, searches.gathered(a.out / "searches"))
+        write_rows(comparison.SETTINGS, searches.every_row(a.out / "searches"))
         write_studies()
     walk(a.out, a.only or (*COMPARED, SOFT, *DECLARED), a.workers)
     if a.only is None:

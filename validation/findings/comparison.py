@@ -1,7 +1,7 @@
 """The comparison's test walks: the settings that searches chose, under all conditions of the questions.
 
-    study_file(hardware, tuning)   a study of `examples/studies`, written from the settings
-    rows_of(results, ..)           a row for each search under each condition, as the page reads them
+    tables_of(hardware, tuning, rows)   a study of `examples/studies`, from the settings
+    rows_of(results, ..)                a row for each search under each condition, as the page reads them
 
 A row has the hash of the questions with which it was walked, how many walks are feasible, and the rms errors
 [urad] in the order of the seeds, "-" for a walk that is not feasible.
@@ -20,12 +20,15 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.studies.results import Results
-from validation.findings.searches import PLAN, merged
+from validation.findings.searches import PLAN, merge
 from validation.findings.statistics import Side, first_seed, questions, text_hash
 
 ROOT = Path(__file__).parents[2]
 SETTINGS = ROOT / "docs" / "findings" / "settings.csv"
 LATER = "1 ms more"
+"""The condition of the common limit: a further 1 ms of delay that nobody knows."""
+TABLE_I = "Table I"
+"""The paper's own controller and gains, which stand outside: no search chose them."""
 
 
 def settings() -> list[dict[str, str]]:
@@ -36,7 +39,7 @@ def settings() -> list[dict[str, str]]:
 
 def name_of(hardware: str, tuning: str) -> str:
     """The name of the study and of its rows."""
-    return f"compared_{hardware}_{tuning}"
+    return f"comparison_{hardware}_{tuning}"
 
 
 def tables_of(hardware: str, tuning: str, rows: list[dict[str, str]]) -> dict[str, Any]:
@@ -44,10 +47,10 @@ def tables_of(hardware: str, tuning: str, rows: list[dict[str, str]]) -> dict[st
     asked = questions()
     later = {"hardware": {"delay": PLAN["later"][hardware]}}
     cases = {
-        f"{r['controller']} #{r['search']}, {r['gait']}": merged(
+        f"{r['controller']} #{r['search']}, {r['gait']}": merge(
             PLAN["controllers"][r["controller"]],
             {"gait": {"name": PLAN["gaits"][r["gait"]]}},
-            nested(json.loads(r["values"])),
+            nest(json.loads(r["values"])),
         )
         for r in rows
         if (r["hardware"], r["tuning"]) == (hardware, tuning) and r["values"]
@@ -59,9 +62,9 @@ def tables_of(hardware: str, tuning: str, rows: list[dict[str, str]]) -> dict[st
                 "gait": {"name": file},
             }
     return {
-        "name": f"compared, {hardware}, tuned for {tuning}",
+        "name": f"comparison, {hardware}, tuned for {tuning}",
         "seeds": {"from": first_seed(), "count": asked["walks"]},
-        "base": merged(
+        "base": merge(
             PLAN["base"], PLAN["hardware"][hardware], {"run": {"impacts": asked["impacts"]}}
         ),
         "conditions": asked["conditions"] | {LATER: later},
@@ -69,16 +72,16 @@ def tables_of(hardware: str, tuning: str, rows: list[dict[str, str]]) -> dict[st
     }
 
 
-TABLE_I = "Table I"
-"""The paper's own controller and gains, which stand outside: no search chose them."""
+def sign_of(tuning: str) -> float:
+    """1 for a tuning whose objective is minimised, -1 for one that maximises."""
+    return -1.0 if PLAN["tunings"][tuning]["objective"].get("goal") == "maximise" else 1.0
 
 
 def best_of(rows: list[dict[str, str]]) -> list[dict[str, str]]:
     """The best search of each controller at each place, by its walks of choice."""
     best: dict[tuple[str, ...], dict[str, str]] = {}
     for r in rows:
-        goal = PLAN["tunings"][r["tuning"]]["objective"].get("goal", "minimise")
-        sign = 1.0 if goal == "minimise" else -1.0
+        sign = sign_of(r["tuning"])
         key = r["hardware"], r["gait"], r["tuning"], r["controller"]
         if r["values"]:
             known = best.get(key)
@@ -96,8 +99,8 @@ def soft_tables(rows: list[dict[str, str]]) -> dict[str, Any]:
     ground = {"ground": {"plant": "mujoco", "time_constant": 0.005}, "run": {"impacts": 4}}
     known = tables["conditions"]
     return tables | {
-        "name": "compared on MuJoCo's ground",
-        "base": merged(tables["base"], ground),
+        "name": "comparison on MuJoCo's ground",
+        "base": merge(tables["base"], ground),
         "conditions": {"level": {}, **{k: known[k] for k in ("80 N m", "trunk +30 %")}},
         "cases": {k: x for k, x in tables["cases"].items() if k.endswith(", rough")},
     }
@@ -111,13 +114,13 @@ def comment(name: str) -> str:
     )
 
 
-def nested(values: dict[str, Any]) -> dict[str, Any]:
+def nest(values: dict[str, Any]) -> dict[str, Any]:
     """Tables of values by dotted name."""
     result: dict[str, Any] = {}
     for name, x in values.items():
         for part in reversed(name.split(".")):
             x = {part: x}
-        result = merged(result, x)
+        result = merge(result, x)
     return result
 
 
@@ -187,9 +190,8 @@ def side(
     errors = {r["search"]: errors_of(r) for r in under}
     if not errors:
         return None
-    # a tuning that maximises has the sign of its objective changed; a search that kept no limit has no setting
-    goal = PLAN["tunings"][at[2]]["objective"].get("goal", "minimise")
-    sign = 1.0 if goal == "minimise" else -1.0
+    # a search that kept no limit has no setting
+    sign = sign_of(at[2])
     none = np.full(len(next(iter(errors.values()))), math.inf)
     objective = [sign * float(r["on choice"]) if r["values"] else math.inf for r in searched]
     return Side(np.array(objective), np.array([errors.get(r["search"], none) for r in searched]))

@@ -48,11 +48,11 @@ def rows(name: str) -> list[dict[str, str]]:
 
 def side(at: Place, condition: str, name: str = "") -> Side | None:
     """The searches of a controller at a place, walked under a condition."""
-    walked = rows(name or f"compared_{at[0]}_{at[2]}")
+    walked = rows(name or f"comparison_{at[0]}_{at[2]}")
     return comparison.side(rows("settings"), walked, at, condition)
 
 
-def known(at: Place, condition: str) -> Side:
+def side_of(at: Place, condition: str) -> Side:
     """The same where a search kept the limits."""
     found = side(at, condition)
     assert found is not None, (at, condition)
@@ -68,27 +68,27 @@ def answers() -> list[tuple[dict[str, Any], Answer | None, float]]:
         one, other = (side(tuple(q[k]), q["condition"]) for k in ("one", "other"))
         found = None
         if one is not None and other is not None:
-            found = statistics.compared(one, other, q["measure"], asked["draws"])
+            found = statistics.compare(one, other, q["measure"], asked["draws"])
         result.append((q, found))
     corrected = statistics.holm([1.0 if x is None else x.p for _, x in result])
     return [(q, x, p) for (q, x), p in zip(result, corrected, strict=True)]
 
 
-def said(x: Answer | None) -> str:
+def in_words(x: Answer | None) -> str:
     """ "0.43 (0.31 to 0.58)"."""
     if x is None:
         return "no setting within the limits"
     return f"{x.value:.3g} ({x.low:.3g} to {x.high:.3g})"
 
 
-def p_said(p: float) -> str:
+def p_in_words(p: float) -> str:
     """ "p = 0.0012", or a bound."""
     return f"p = {p:.2g}" if p >= 1e-3 else "p < 0.001"
 
 
-def changed(place: Sequence[str]) -> str:
+def warning(place: Sequence[str]) -> str:
     """A warning where the questions' text is not that with which these walks were made; else nothing."""
-    hashes = {r["question"] for r in rows(f"compared_{place[0]}_{place[2]}")}
+    hashes = {r["question"] for r in rows(f"comparison_{place[0]}_{place[2]}")}
     return "" if hashes == {statistics.text_hash()} else ", **question changed after its walks**"
 
 
@@ -121,20 +121,20 @@ def ratios(at: Place, condition: str) -> dict[tuple[str, str], Any]:
         for controller in PLAN["controllers"]:
             one, other = (side((at[0], gait, at[2], c), condition) for c in (controller, at[3]))
             if controller != at[3] and one and other:
-                result[controller, gait] = statistics.compared(one, other, "error", DRAWN)[:3]
+                result[controller, gait] = statistics.compare(one, other, "error", DRAWN)[:3]
     return result
 
 
 def shares(cases: Mapping[str, Place], conditions: Sequence[str]) -> dict[tuple[str, str], Any]:
     """Share of feasible walks by condition, a series for each of the named places."""
     return {
-        (condition, name): statistics.alone(known(at, condition), "share", DRAWN)[:3]
+        (condition, name): statistics.alone(side_of(at, condition), "share", DRAWN)[:3]
         for name, at in cases.items()
         for condition in conditions
     }
 
 
-def declared(
+def shares_of(
     name: str, where: Callable[[dict[str, str]], tuple[str, str] | None]
 ) -> dict[tuple[str, str], Any]:
     """Share of feasible walks of a declared study, with Wilson's interval; where: row -> (row, series)."""
@@ -144,7 +144,7 @@ def declared(
 
 def sizes(at: Place, condition: str = PUSH) -> str:
     """The median error of the best search: in mrad, in counts of the encoder, in mm of the foot."""
-    e = statistics.alone(known(at, condition), "error", DRAWN).value
+    e = statistics.alone(side_of(at, condition), "error", DRAWN).value
     return f"{1e3 * e:.2g} mrad ({e / COUNT:.2g} counts, {1e3 * LEG * e:.2g} mm of the foot)"
 
 
@@ -208,7 +208,7 @@ def pictures() -> None:
     cases = dict.fromkeys((r["case"], r["condition"]) for r in rows("held_hip_force"))
     forces = {key: (largest_force(*key), *ends) for key in cases}
     picture("hip", forces, "largest force held on the hip [N]", "linear")
-    heights = declared("laws_and_gaits", lambda r: (r["case"], r["condition"]))
+    heights = shares_of("laws_and_gaits", lambda r: (r["case"], r["condition"]))
     picture("heights", heights, feasible_share, "linear")
     least = {key: (e, *ends) for key, (e, _) in orders().items() if math.isfinite(e)}
     picture("orders", least, "least median rms error [mrad]", "log")
@@ -217,7 +217,7 @@ def pictures() -> None:
 def soft() -> dict[tuple[str, str], Any]:
     """Share of feasible walks on MuJoCo's ground, by controller and condition."""
     result = {}
-    for r in rows("compared_soft"):
+    for r in rows("comparison_soft"):
         fine = comparison.errors_of(r)
         result[r["controller"], r["condition"]] = share(int(r["feasible"]), len(fine))
     return result
@@ -229,6 +229,8 @@ def fields() -> dict[str, Any]:
     rough = ("rabbit", "rough", "tracking")
     ground = {gait: ("rabbit", gait, "ground", "m = 1") for gait in PLAN["gaits"]}
     of_ground, of_tracking = ("exact", "v0.6", "ground", "NPD"), (*exact, "NPD")
+    tracking = PLAN["tunings"]["tracking"]
+    budgets = (tracking["budget"], *tracking["fewer"].values(), PLAN["tunings"]["ground"]["budget"])
     walked_10 = [
         fine((hardware, "v0.6", "ground", c), "10 mm")
         for hardware in PLAN["hardware"]
@@ -255,11 +257,11 @@ def fields() -> dict[str, Any]:
             m1=fine((*rabbit, "m = 1"), comparison.LATER),
         ),
         "range": Names(low=min(walked_10), high=max(walked_10)),
-        "failed": failed(),
+        "failed": failures(),
         "stop": stops(),
         "exact": Names(
             **{
-                name: ratio_said((*exact, one), (*exact, other))
+                name: ratio_in_words((*exact, one), (*exact, other))
                 for name, one, other in (
                     ("pid", "PID", "NPD"),
                     ("st", "super twisting", "NPD"),
@@ -271,13 +273,13 @@ def fields() -> dict[str, Any]:
         "ground": Names(
             tuned=feasible(of_ground, "10 mm"),
             tracked=feasible(of_tracking, "10 mm"),
-            each=", ".join(str(np.isfinite(x).sum()) for x in known(of_ground, "10 mm").errors),
+            each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
-            npd=ratio_said((*rough, "m = 1"), (*rough, "NPD")),
-            npd_value=ratio_said((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
-            pid=ratio_said((*rough, "m = 1"), (*rough, "PID")),
+            npd=ratio_in_words((*rough, "m = 1"), (*rough, "NPD")),
+            npd_value=ratio_in_words((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
+            pid=ratio_in_words((*rough, "m = 1"), (*rough, "PID")),
         ),
         "margin": Names(
             b0=margin((*exact, "ADRC b0"), "disk_margin"),
@@ -291,10 +293,10 @@ def fields() -> dict[str, Any]:
             rough20=feasible(ground["rough"], "20 mm"),
             level20=feasible(ground["v0.6"], "20 mm"),
             pd20=feasible(("rabbit", "v0.6", "ground", "PD"), "20 mm"),
-            exact=said(
-                statistics.compared(
-                    known(("exact", "rough", "ground", "m = 1"), "10 mm"),
-                    known(("exact", "v0.6", "ground", "m = 1"), "10 mm"),
+            exact=in_words(
+                statistics.compare(
+                    side_of(("exact", "rough", "ground", "m = 1"), "10 mm"),
+                    side_of(("exact", "v0.6", "ground", "m = 1"), "10 mm"),
                     "share",
                     DRAWN,
                 )
@@ -314,8 +316,17 @@ def fields() -> dict[str, Any]:
             later=largest_force("footstep, 0.34 m", "encoders, 1 ms late"),
         ),
         "spread": Names(npd=spread((*rabbit, "NPD")), m1=spread((*rabbit, "m = 1"))),
-        "rough": Names(searched=searched_at("rabbit", "rough", "ground")),
-        "heights": Names(rough=walked_of("reset, rough", "20 mm")),
+        "rough": Names(searched=controllers_at("rabbit", "rough", "ground")),
+        "heights": Names(
+            level=walks_of("reset, v0.6", "20 mm"),
+            npd=walks_of("NPD, rough", "20 mm"),
+            rough=walks_of("reset, rough", "20 mm"),
+            level10=walks_of("reset, v0.6", "10 mm"),
+            npd10=walks_of("NPD, rough", "10 mm"),
+            footstep=walks_of("footstep, rough", "20 mm"),
+            flat=walks_of("reset, flat", "20 mm"),
+        ),
+        "plan": Names(low=min(budgets), high=max(budgets)),
         "orders": Names(
             most=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (1, 2, 3, 5, 7)),
             sine1=at_least("m = 1", "sine, 20 N m"),
@@ -334,7 +345,7 @@ class Names:
 def question(q: dict[str, Any], answer: Answer | None, p: float) -> Names:
     """The answer to a question: its number with the interval, and p."""
     value = "" if answer is None else f"{answer.value:.2g}"
-    return Names(value=value, said=said(answer), p=p_said(p) + changed(q["one"]))
+    return Names(value=value, said=in_words(answer), p=p_in_words(p) + warning(q["one"]))
 
 
 def versions() -> str:
@@ -345,16 +356,16 @@ def versions() -> str:
 
 def micro(at: Place) -> str:
     """The median error in urad."""
-    return f"{1e6 * statistics.alone(known(at, PUSH), 'error', DRAWN).value:.2g} µrad"
+    return f"{1e6 * statistics.alone(side_of(at, PUSH), 'error', DRAWN).value:.2g} µrad"
 
 
-def ratio_said(one: Place, other: Place) -> str:
+def ratio_in_words(one: Place, other: Place) -> str:
     """Ratio of errors under the push, with its interval."""
-    found = statistics.compared(known(one, PUSH), known(other, PUSH), "error", DRAWN)
-    return said(found)
+    found = statistics.compare(side_of(one, PUSH), side_of(other, PUSH), "error", DRAWN)
+    return in_words(found)
 
 
-def chosen(at: Place) -> dict[str, str]:
+def best_row(at: Place) -> dict[str, str]:
     """The row of the best search at a place."""
     keys = ("hardware", "gait", "tuning", "controller")
     best = comparison.best_of(rows("settings"))
@@ -363,7 +374,7 @@ def chosen(at: Place) -> dict[str, str]:
 
 def gains(at: Place) -> str:
     """K_p and K_d of the best search."""
-    values = json.loads(chosen(at)["values"])
+    values = json.loads(best_row(at)["values"])
     return " / ".join(f"{values[f'controller.{k}']:.3g}" for k in ("K_p", "K_d"))
 
 
@@ -387,17 +398,19 @@ def by_name(at: tuple[str, str, str], condition: str) -> str:
 
 
 def of_soft() -> Names:
-    """Feasible walks on MuJoCo's ground, level and pushed, by controller."""
-    walked: dict[str, int] = {}
-    for r in rows("compared_soft"):
-        if r["condition"] != "trunk +30 %":
-            walked[r["controller"]] = walked.get(r["controller"], 0) + int(r["feasible"])
-    return Names(each=", ".join(f"{name} {count}" for name, count in walked.items()))
+    """Feasible walks on MuJoCo's ground by controller: level and pushed, and with more trunk."""
+    hard: dict[str, int] = {}
+    trunk: dict[str, int] = {}
+    for r in rows("comparison_soft"):
+        count = trunk if r["condition"] == "trunk +30 %" else hard
+        count[r["controller"]] = count.get(r["controller"], 0) + int(r["feasible"])
+    each, more = (", ".join(f"{k} {n}" for k, n in x.items()) for x in (hard, trunk))
+    return Names(each=each, trunk=more)
 
 
 def fine(at: Place, condition: str) -> int:
     """The number of feasible walks of the best search."""
-    found = known(at, condition)
+    found = side_of(at, condition)
     return int(np.isfinite(found.errors[found.best]).sum())
 
 
@@ -414,14 +427,14 @@ def at_least(order: str, condition: str) -> str:
     )
 
 
-def failed() -> str:
+def failures() -> str:
     """How many searches found no setting within the limits, and how many chose the case as it was."""
     every = [r["values"] for r in rows("settings")]
     none, before = every.count(""), every.count("{}")
     return f"{none} of {len(every)} found no setting, {before} chose the controller's defaults"
 
 
-def walked_of(case: str, condition: str) -> str:
+def walks_of(case: str, condition: str) -> str:
     """Feasible walks of a case of the study `laws_and_gaits` under a condition."""
     return next(
         r["feasible"]
@@ -438,7 +451,7 @@ def spread(at: Place) -> str:
     return f"{max(errors) / min(errors):.2g}"
 
 
-def searched_at(*at: str) -> str:
+def controllers_at(*at: str) -> str:
     """Names of the controllers that were searched at a place."""
     keys = ("hardware", "gait", "tuning")
     names = (r["controller"] for r in rows("settings") if tuple(r[k] for k in keys) == at)

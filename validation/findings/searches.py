@@ -46,13 +46,13 @@ def places() -> Iterator[tuple[str, str, str]]:
     yield from itertools.product(PLAN["hardware"], PLAN["gaits"], PLAN["tunings"])
 
 
-def merged(*tables: dict[str, Any]) -> dict[str, Any]:
+def merge(*tables: dict[str, Any]) -> dict[str, Any]:
     """Nested tables put together, later ones over earlier ones."""
     result: dict[str, Any] = {}
     for table in tables:
         for key, x in table.items():
             inside = isinstance(x, dict) and isinstance(result.get(key), dict)
-            result[key] = merged(result[key], x) if inside else x
+            result[key] = merge(result[key], x) if inside else x
     return result
 
 
@@ -67,7 +67,7 @@ def study_of(
     if more is not None:
         numbers = {n: range(least, count) for n, count in more.items()}
     t = PLAN["tunings"][tuning]
-    base = merged(
+    base = merge(
         PLAN["base"],
         PLAN["hardware"][hardware],
         {"gait": {"name": PLAN["gaits"][gait]}, "run": {"impacts": t["impacts"]}},
@@ -94,13 +94,13 @@ def study_of(
             "seed": 0 if more is None else 1000,
             "objective": t["objective"],
             "limits": t["limits"],
-            "variables": merged(PLAN["variables"], beside),
+            "variables": merge(PLAN["variables"], beside),
             "walks": {k: {"seeds": {"from": a, "count": n}} for k, (a, n) in sets.items()},
         },
     }
 
 
-def searched(
+def search_at(
     folder: Path,
     at: tuple[str, str, str],
     more: dict[str, int] | None = None,
@@ -141,7 +141,7 @@ def searched(
     return rows
 
 
-def gathered(folder: Path) -> Iterator[dict[str, str]]:
+def every_row(folder: Path) -> Iterator[dict[str, str]]:
     """The rows of all searches, place by place."""
     for at in places():
         for path in (folder / f"{'-'.join(at)}.csv", folder / f"{'-'.join(at)}-more.csv"):
@@ -162,7 +162,7 @@ def main(out: str, *names: str) -> None:
     for name, (at, more) in runs.items():
         if names and name not in names:
             continue
-        rows = searched(Path(out), at, more, 1 if names else None)
+        rows = search_at(Path(out), at, more, 1 if names else None)
         with open(Path(out) / f"{name}.csv", "w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)
             writer.writeheader()

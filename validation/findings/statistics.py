@@ -70,7 +70,7 @@ def logs(one: Array, other: Array) -> Array:
     return np.nan_to_num(x, nan=0.0, posinf=np.inf, neginf=-np.inf)
 
 
-def compared(one: Side, other: Side, measure: str, draws: int, seed: int = 0) -> Answer:
+def compare(one: Side, other: Side, measure: str, draws: int, seed: int = 0) -> Answer:
     """Compare two sides by "error" or "share"."""
     random = np.random.default_rng(seed)
     middle: Any = np.median if measure == "error" else np.mean
