@@ -77,6 +77,9 @@ def study_of(
         name: {"1 ms more": later, **PLAN["conditions"]}[name] for name in t["conditions"]
     }
     beside = PLAN[f"variables_{hardware}"]
+    asked = dict(PLAN["search"])
+    beyond = asked.pop("more")
+    asked["budget"] = PLAN["budgets"].get(f"{hardware}, {gait}, {tuning}", asked["budget"])
     sets = {"search": (SEARCH, t["seeds"]), "choice": (CHOICE, 20), "test": (REHEARSAL, 2)}
     return {
         "name": f"{hardware}, {gait}, {tuning}",
@@ -88,10 +91,8 @@ def study_of(
             for i in some
         },
         "search": {
-            **PLAN["search"],
-            "budget": t.get("fewer", {}).get(f"{hardware}, {gait}", t["budget"]),
-            "doublings": t["doublings"],
-            "seed": 0 if more is None else 1000,
+            **asked,
+            "seed": asked["seed"] if more is None else beyond,
             "objective": t["objective"],
             "limits": t["limits"],
             "variables": merge(PLAN["variables"], beside),
@@ -135,7 +136,7 @@ def search_at(
                 "on search": choice.candidates[best.number].objective,
                 "on choice": best.objective,
                 "stop": choice.stop,
-                "values": json.dumps({n: float(f"{x:.4g}") for n, x in values.items()}),
+                "values": json.dumps({n: float(f"{x:.8g}") for n, x in values.items()}),
             }
         )
     return rows
