@@ -20,7 +20,7 @@ to build walkers without walking them.
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
 from pathlib import Path
@@ -29,7 +29,7 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
-from biped_adrc.studies.proposals import WalkAll, optuna_library, searched
+from biped_adrc.studies.proposals import Round, WalkAll, optuna_library, searched, together
 from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Runner, StudyProgress
@@ -97,9 +97,10 @@ def study(
             return Results(study_, folder)
         # walks the candidates of the search
         walker = _Searched(study_, study_.search, runner, undrawn)
-        # for each case a Choice, or a text that says why there is none
         cases = enumerate(study_.cases or ("",))
-        result = {name: walker.choice(name, study_.search.seed + i) for i, name in cases}
+        searches = {name: walker.search_of(name, study_.search.seed + i) for i, name in cases}
+        # for each case a Choice, or a text that says why there is none
+        result = {name: walker.choice(name, x) for name, x in together(searches).items()}
         choices = {name: x for name, x in result.items() if isinstance(x, Choice)}
         failures = tuple(x for x in result.values() if isinstance(x, str))
         if not choices:
@@ -124,11 +125,8 @@ class _Searched:
         self.study, self.search, self.runner, self.place = study, search, runner, 0
         self.undrawn = undrawn
 
-    def choice(self, case: str, seed: int) -> Choice | str:
-        """Search a case ("" for the base alone), and choose among its best few candidates by their walks on the
-        second set; returns a text with the reason where no candidate keeps all limits. seed: of the sampler.
-        """
-        search, base = self.search, self.study.values_of(case)
+    def search_of(self, case: str, seed: int) -> Iterator[Round]:
+        """The rounds of the search of a case ("" for the base alone). seed: of the sampler."""
         # numbers of the candidates that were the best so far, one after the other
         best: list[int] = []
 
@@ -137,13 +135,22 @@ class _Searched:
             if best[-1:] != [c.number]:
                 best.append(c.number)
                 missed = "" if c.feasible else f", missing limits by {100 * sum(c.missed):.3g} %"
-                words = f"{search.objective.words} {c.objective:.4g}{missed}"
+                words = f"{self.search.objective.words} {c.objective:.4g}{missed}"
                 self.runner.tell(f"{case or self.study.name}: candidate {c.number}, {words}")
 
-        def walk(kind: str, found: Sequence[Candidate]) -> list[Walks]:
-            return self.walk(kind, [(c.number, c.values, walk_names(case=case)) for c in found])
+        base = self.study.values_of(case)
+        return searched(self.search, base, partial(self.walk_case, case, "search"), report, seed)
 
-        result, gain, ends = searched(search, base, partial(walk, "search"), report, seed)
+    def walk_case(self, case: str, kind: str, found: Sequence[Candidate]) -> list[Walks]:
+        """The walks of candidates of a case on a set of walks; see `walk`."""
+        return self.walk(kind, [(c.number, c.values, walk_names(case=case)) for c in found])
+
+    def choice(self, case: str, last: Round) -> Choice | str:
+        """Choose among the best few candidates of a search by their walks on the second set; returns a text
+        with the reason where no candidate keeps all limits. last: the last round of the search of the case.
+        """
+        search, base, (result, gain, ends) = self.search, self.study.values_of(case), last
+        walk = partial(self.walk_case, case)
         failure = self.failure(result, case, "search")
         if not failure:
             few = _few(search, result)  # the finalists, and the case itself
@@ -156,8 +163,8 @@ class _Searched:
             stop = self.stop(base, again[0], len(result), partial(walk, "choice"))
             stop = ", ".join(f"not tuned: {n} at an end of its range" for n in ends) or stop
             gained = f"gained {gain:.2%}" if math.isfinite(gain) else "alone came within the limits"
-            last = f"; the last doubling {gained}" if search.doublings else ""
-            return Choice(tuple(result), tuple(again), stop + last)
+            stop += f"; the last doubling {gained}" if search.doublings else ""
+            return Choice(tuple(result), tuple(again), stop)
         self.runner.tell(failure)
         return failure
 

@@ -12,7 +12,8 @@ candidate that misses limits, a number above every objective, larger the more it
 A search goes round by round, each of as many candidates as all before it. After a round a variable whose best
 value stands at an end of its range (`Span.beyond`) has that end moved by the width of the range, so that only
 limits and the objective stop a search. Which of them does is asked of settings beside the chosen one
-(`Search.stop`).
+(`Search.stop`). All cases of a study go on while a round of one of them still moves something, so that each has
+as many candidates for a variable as the others (`together`).
 """
 
 from __future__ import annotations
@@ -55,15 +56,20 @@ def optuna_library() -> Any:
     return optuna
 
 
-class SearchEnd(NamedTuple):
-    """A search that has ended."""
+class Round(NamedTuple):
+    """A search after a round."""
 
     candidates: list[Candidate]
     """All candidates by number; number 0 is the case itself."""
     gain: float
-    """The share [1] that its last round gained; infinite without a round before it."""
+    """The share [1] that the round gained; infinite without a round before it."""
     ends: tuple[str, ...]
     """Variables that stand at an end of their range in the best candidate: the search is not over."""
+
+    @property
+    def still(self) -> bool:
+        """Whether the round moved nothing: it gained less than ENOUGH, with no variable at an end."""
+        return not self.ends and self.gain < ENOUGH
 
 
 def searched(
@@ -72,29 +78,38 @@ def searched(
     walk: WalkAll,
     report: Callable[[Candidate], None],
     seed: int | None = None,
-) -> SearchEnd:
-    """Search a case with the values `base`, round by round, until a round moves nothing.
+) -> Iterator[Round]:
+    """Search a case with the values `base`; yield it after each round.
 
     walk: walks the candidates of a generation. report: called with the best candidate after each generation.
-    seed: of the sampler, that of the search if None. It ends after a round that gained less than ENOUGH with no
-    variable at an end of its range, with the last doubling, or when all of a generation's proposals miss limits
-    that are known without a walk. Raises InputError where Optuna is missing.
+    seed: of the sampler, that of the search if None. It ends with the last doubling, or when all of a
+    generation's proposals miss limits that are known without a walk. Raises InputError where Optuna is missing.
     """
     proposals = _Proposals(optuna_library(), search, base, search.seed if seed is None else seed)
     result, numbers = proposals.judged, itertools.count()
-    gain, ends = math.inf, dict[str, Span]()
+    ends = dict[str, Span]()
     for doubled in range(search.doublings + 1):
+        if doubled:
+            proposals.widen(ends)
+            proposals.refine(result, again=True)
         before, most = search.ranked(result)[:1], search.first(base) << doubled
         _round(search, base, proposals, numbers, most, walk, report)
         best = search.ranked(result)[0]
         ends = proposals.ends(best)
-        gain = search.gain(before[0], best) if before else math.inf
-        if _walked(result) < most or (doubled and not ends and gain < ENOUGH):
+        yield Round(result, search.gain(before[0], best) if before else math.inf, tuple(ends))
+        if _walked(result) < most:
             break
-        if doubled < search.doublings:
-            proposals.widen(ends)
-            proposals.refine(result, again=True)
-    return SearchEnd(result, gain, tuple(ends))
+
+
+def together(searches: Mapping[str, Iterator[Round]]) -> dict[str, Round]:
+    """The last rounds of several searches, which go on while a round of one of them moves something."""
+    last = {name: next(rounds) for name, rounds in searches.items()}
+    while not all(x.still for x in last.values()):
+        new = {name: x for name, rounds in searches.items() if (x := next(rounds, None))}
+        if not new:
+            break
+        last |= new
+    return last
 
 
 def _walked(found: Sequence[Candidate]) -> int:

@@ -21,7 +21,7 @@ from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
 from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.measure import Aim, Limit, numbers_without_walk
-from biped_adrc.studies.proposals import searched
+from biped_adrc.studies.proposals import searched, together
 from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.study import read_study
 from tests.commands import command
@@ -34,10 +34,15 @@ def walked(asked):
     return [[("", row)] for row in plants.costs([c.values for c in asked])]
 
 
+def last(search, base):
+    """The last round of a search alone."""
+    return together({"": searched(search, base, walked, lambda c: None)})[""]
+
+
 def found_by(**search):
     """The search with these settings, and the candidates that it tried, in order."""
     study = read_study(plants.tables(**search))
-    return study.search, searched(study.search, study.base, walked, lambda c: None).candidates
+    return study.search, last(study.search, study.base).candidates
 
 
 def test_the_optimum_of_riccati_is_reached():
@@ -62,9 +67,9 @@ def test_an_end_at_which_the_best_stands_is_moved_until_the_optimum_lies_inside(
     tables = plants.tables(budget=50)
     tables["search"]["variables"]["controller.k1"] = k1
     search, base = read_study(tables).search, tables["base"]
-    assert searched(search, base, walked, lambda c: None).ends == ("controller.k1",)
+    assert last(search, base).ends == ("controller.k1",)
     more = search.model_copy(update={"doublings": 3})
-    found, gain, ends = searched(more, base, walked, lambda c: None)
+    found, gain, ends = last(more, base)
     best = more.ranked(found)[0]
     assert best.chosen["controller.k1"] > 2.0
     assert best.objective < 1.02 * plants.optimum()
@@ -92,6 +97,21 @@ def test_a_search_says_what_stopped_it(tmp_path):
     tables["search"]["variables"]["controller.k1"] = {"from": 1.0, "to": 2.0, "scale": "log"}
     (choice,) = plants.carried(tables, tmp_path / "end", plants.costs).choices.values()
     assert choice.stop == "not tuned: controller.k1 at an end of its range"
+
+
+def test_all_cases_go_on_while_one_gains():
+    """A search that stands still beside one that does not has as many candidates as that one; the two end
+    together.
+    """
+    study = read_study(plants.tables(budget=20, doublings=4))
+    narrow = plants.tables(budget=20, doublings=4)
+    narrow["search"]["variables"]["controller.k1"] = {"from": 1.0, "to": 1.2, "scale": "log"}
+    cases = {"wide": study.search, "narrow": read_study(narrow).search}
+    alone = {name: len(last(s, study.base).candidates) for name, s in cases.items()}
+    rounds = {n: searched(s, study.base, walked, lambda c: None) for n, s in cases.items()}
+    counts = {name: len(x.candidates) for name, x in together(rounds).items()}
+    assert alone["wide"] < alone["narrow"]
+    assert counts["wide"] == counts["narrow"] >= alone["narrow"]
 
 
 def test_equal_cases_are_searches_with_other_seeds(tmp_path):
@@ -197,7 +217,7 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     # walks(x): a walk that ended well, with the objective x
     walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
     search = search.model_copy(update={"budget": 8, "generation": 5, "walks": search.walks})
-    found = searched(search, {}, walk, lambda c: None).candidates
+    found = together({"": searched(search, {}, walk, lambda c: None)})[""].candidates
     assert len(found) == 32
     # [0] is the case itself, for which nothing was chosen
     assert {type(c.chosen[order]) for c in found[1:]} == {int}

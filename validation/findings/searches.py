@@ -79,7 +79,6 @@ def study_of(
     beside = PLAN[f"variables_{hardware}"]
     asked = dict(PLAN["search"])
     beyond = asked.pop("more")
-    asked["budget"] = PLAN["budgets"].get(f"{hardware}, {gait}, {tuning}", asked["budget"])
     sets = {"search": (SEARCH, t["seeds"]), "choice": (CHOICE, 20), "test": (REHEARSAL, 2)}
     return {
         "name": f"{hardware}, {gait}, {tuning}",
