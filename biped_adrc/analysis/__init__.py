@@ -18,6 +18,7 @@ Of a closed loop or a gait:
 - `rough_estimate`                 an estimate of the same for any controller, by one simulated step per height
 - `forced_map`                     gains from heights, forces and wrong masses to the next steps, of full order
 - `gait_design`                    a gait for a speed, proved by a simulated walk
+- `family_design`                  a family of gaits, by speed and step length
 - `observer`                       what an observer demands of encoders, sampling and motors
 - `loops`                          margins of the sampled loop of a whole walker
 """

@@ -32,14 +32,14 @@ from biped_adrc.engine.kernels.record import Ints
 SHORTEST = 1e-9
 """Shortest single support with a mean force [s]."""
 T, STEP, OUTSIDE, ERROR, U, Q, V, MOMENTUM, FOOT = range(9)
-"""Columns in the order of `ground_force.NODE_COLUMNS`; `at` says where in a row each begins."""
+"""Columns in the order of `ground_force._columns`; `at` says where in a row each begins."""
 WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, JOINTS = 0, 1, 2, 3, 4, 6, 8, 9
-"""Where each part of `ground_force.Known` begins; behind its joints stand the S falls of the ground."""
+"""Where each part of `ground_force._known` begins; behind its joints stand the S falls of the ground."""
 
 
 # numba alone compiles this text, and Python never runs it. The imports from the kernels are left out of the
 # text that numba gets (`engine.kernels.write.joined`). A vector has no length here, and an index beyond it
-# reads other memory without an error: the places above have to follow `NodeRow` and `ground_force.Known`.
+# reads other memory without an error: the places above have to follow `NodeRow` and `ground_force._known`.
 @inner
 def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -> None:
     """Write one node's largest torque [N m], share of the limit of a rate [1], angle beyond a range [rad], 0
@@ -120,7 +120,7 @@ def demands(
 
     rows (K, width): the nodes. at: where in a row each column begins. first (S + 1,): first node of each of the
     S = `supports` single supports, and K; the first `impacts` of them ended in an impact. known: constants of
-    the walk, `ground_force.Known`, each at its place WINDOW, WEIGHT and so on, and the S falls of the ground.
+    the walk, `ground_force._known`, each at its place WINDOW, WEIGHT and so on, and the S falls of the ground.
     worst (S, 10): here `keep_worst` keeps the worst of each single support.
     """
     count, before, foot, P = first[supports], rows, at[FOOT], at[MOMENTUM]

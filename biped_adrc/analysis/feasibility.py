@@ -42,16 +42,12 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.robots.limits import SLIP, KnownLimits, Limits
 
-VERDICTS = {
-    "infeasible": "not feasible",
-    "but_impact": "feasible but for the impact",
-    "feasible": "feasible",
-}
-"""Verdict on a walk that made all its steps: word in records -> its meaning in reports."""
 OUTCOMES = {
     "fell": "it fell",
     "ended": "it ended otherwise",
-    **{word: f"it made all steps, {text}" for word, text in VERDICTS.items()},
+    "infeasible": "it made all steps, not feasible",
+    "but_impact": "it made all steps, feasible but for the impact",
+    "feasible": "it made all steps, feasible",
 }
 """Outcome of a walk: word in records -> its meaning in reports."""
 COUNTED = ("feasible", "but_impact")

@@ -28,6 +28,7 @@ own, since its last steps are halved: there d is better large, as 1e-3, and the 
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -41,7 +42,6 @@ from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.core.shown import Shown, columns
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.disturbances.base import NO_PUSH
 from biped_adrc.disturbances.force import HipForce
@@ -140,31 +140,28 @@ def forced(walker: Walker, w: Array, bodies: tuple[str, ...] = ()) -> Walker:
     return replace(walker, disturbance=push if F else walker.disturbance, ground_steps=ground)
 
 
-@dataclass(frozen=True)
-class _Strides:
-    """Strides of P's walker: w -> states at their end. bodies: of mu. phase (n,): c in Theta = c q."""
+def _strides(
+    P: ReturnMap, bodies: tuple[str, ...], phase: Array, w: Array, x: Array, end: float = math.inf
+) -> Array:
+    """Walk strides of P's walker, from states x (K, nx) before impact, under w (3,).
 
-    P: ReturnMap
-    bodies: tuple[str, ...]
-    phase: Array
-
-    def __call__(self, w: Array, x: Array, end: float = math.inf) -> Array:
-        """Rows (K, nx + 3): state before the next impact or at `end` [s], sigma^2 / 2, Theta, time, for states
-        x (K, nx) before impact under w (3,)."""
-        walker, plant = forced(self.P.walker, w, self.bodies), self.P.walker.plant
-        if (compiled := replace(self.P, walker=walker).compiled(x[0])) is None:
-            raise InputError(
-                "walker or method have no machine code; expected RK4 or Exponential and parts that compile"
-            )
-        starts = [after_impact(walker, 0.0, each, Mode()) for each in x]
-        rows = list[Array]()
-        for walk in strides(compiled, starts, min(end, 2.0 * walker.max_step_time)):
-            if end == math.inf and not walk.status.ok:
-                raise SimulationError(f"no return to an impact: {walk.status.name} {walk.detail}")
-            at = walk.x_minus[0] if end == math.inf else walk.final_state
-            sigma = plant.angular_momentum(*np.split(at[: 2 * plant.n], 2))
-            rows.append(np.array([*at, 0.5 * sigma**2, self.phase @ at[: plant.n], walk.t_end]))
-        return np.array(rows)
+    bodies: those with the error mu. phase (n,): c in Theta = c q. Returns rows (K, nx + 3): state before the
+    next impact or at `end` [s], sigma^2 / 2, Theta, time.
+    """
+    walker, plant = forced(P.walker, w, bodies), P.walker.plant
+    if (compiled := replace(P, walker=walker).compiled(x[0])) is None:
+        raise InputError(
+            "walker or method have no machine code; expected RK4 or Exponential and parts that compile"
+        )
+    starts = [after_impact(walker, 0.0, each, Mode()) for each in x]
+    rows = list[Array]()
+    for walk in strides(compiled, starts, min(end, 2.0 * walker.max_step_time)):
+        if end == math.inf and not walk.status.ok:
+            raise SimulationError(f"no return to an impact: {walk.status.name} {walk.detail}")
+        at = walk.x_minus[0] if end == math.inf else walk.final_state
+        sigma = plant.angular_momentum(*np.split(at[: 2 * plant.n], 2))
+        rows.append(np.array([*at, 0.5 * sigma**2, phase @ at[: plant.n], walk.t_end]))
+    return np.array(rows)
 
 
 def forced_map(
@@ -182,13 +179,13 @@ def forced_map(
     check_part(P, "the map", ReturnMap)
     check_part(orbit, "the orbit", PeriodicOrbit)
     check_part(constraint, "the constraint of the gait", VirtualConstraint)
-    timing, x0, none = P.walker.timing, orbit.x_minus[np.newaxis], np.zeros(3)
-    if P.walker.sensors or (isinstance(timing, SampledTime) and not timing.restart):
+    x0, none = orbit.x_minus[np.newaxis], np.zeros(3)
+    if P.walker.sensors or not getattr(P.walker.timing, "restart", True):
         raise InputError(
             "a stride with sensors, which round, or with a clock that does not restart at impact has no "
             "derivative; expected a walker without sensors, in continuous time or with restart=True"
         )
-    walked, k = _Strides(P, bodies, constraint.phase), x0.size
+    walked, k = partial(_strides, P, bodies, constraint.phase), x0.size
     cycle, middle = walked(none, x0)[0], 0.5 * (constraint.theta_plus + constraint.theta_minus)
     if (gap := np.max(np.abs(cycle[:k] - x0))) > _SETTLED:
         raise SimulationError(f"the orbit misses itself by {gap:.2g}, expected below {_SETTLED:g}")

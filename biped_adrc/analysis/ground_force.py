@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -20,19 +20,12 @@ from biped_adrc.closed_loop.instant_signals import NodeRow, StepReading, node_la
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.once import once
 from biped_adrc.core.timing import SAME_INSTANT
-from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.engine.kernels.load import compiled
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS
-
-NODE_COLUMNS = (
-    *(("t",), ("step",), ("outside",)),
-    *(("reading", name) for name in ("error", "u", "q", "v_b", "momentum", "swing_foot")),
-)
-"""Columns of a `NodeRow` that the compiled loops read, in the order of T, STEP .. in `analysis.demands`."""
 
 
 @dataclass(frozen=True)
@@ -97,41 +90,30 @@ class Nodes:
 
 @cache
 def _columns(n: int, p: int) -> Indices:
-    """Index in a row of the first number of each of NODE_COLUMNS, as the compiled loops read it."""
-    layout = node_layout(n, p)
-    return np.array([layout.place(*path).start for path in NODE_COLUMNS])
-
-
-class Known(NamedTuple):
-    """Constants of the loop over nodes; `analysis.demands` reads them by their place in this order."""
-
-    window: float
-    """Length w [s] of the window over which the ground force is averaged."""
-    weight: float
-    """m g [N]."""
-    tangent: float
-    """Tangent of the ground's slope, positive where it falls ahead [1]."""
-    ends: float
-    """Share of a single support at either end in which the depth of the swing foot does not count [1]."""
-    along: Array
-    """Unit vector along the ground (2,)."""
-    normal: Array
-    """Unit vector out of it (2,)."""
-    same: float
-    """By how much two times of one instant may differ [s]."""
-    joints: Array
-    """In even and in odd single supports (2, p, 3): largest rate [rad/s], both ends of the range [rad]."""
+    """Index in a `NodeRow` of the first number of each column that the compiled loops read, in the order of
+    T, STEP .. in `analysis.demands`."""
+    layout, read = node_layout(n, p), ("error", "u", "q", "v_b", "momentum", "swing_foot")
+    paths = ("t",), ("step",), ("outside",), *(("reading", name) for name in read)
+    return np.array([layout.place(*path).start for path in paths])
 
 
 @once
 def _known(plant: Biped, slope: float, window: float) -> Array:
-    """The numbers of `Known` in their order, read-only."""
+    """The constants of the loop over nodes, read-only; `analysis.demands` reads them by their place.
+
+    They are, in this order:
+
+        window, m g          length w [s] of the window of a mean force, and the robot's weight [N]
+        tangent              of the ground's slope [1], positive where it falls ahead
+        ENDS                 share of a single support at either end in which the swing foot's depth is free [1]
+        along, normal        unit vectors along the ground (2,) and out of it (2,)
+        SAME_INSTANT         by how much two times of one instant may differ [s]
+        joints               (2, p, 3), in even and odd single supports: largest rate [rad/s], range [rad]
+    """
     # motor_joints: the joints in even single supports, then those in odd ones, where the other leg stands
     joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
-    along, normal = map(np.array, ground_axes(slope))
-    # ENDS: share of the step at either end, where the foot may touch the ground
     head = window, plant.weight, math.tan(slope), ENDS
-    return read_only(flatten(Known(*head, along, normal, SAME_INSTANT, joints)))
+    return read_only([*head, *np.ravel(ground_axes(slope)), SAME_INSTANT, *joints])
 
 
 # `load` joins these texts in this order: a decorator has to stand before the function that uses it.

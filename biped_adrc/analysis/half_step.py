@@ -5,10 +5,8 @@ agree when they differ by at most 1 %, or by the resolution of the quantity: tra
 walks are themselves round-off. "Step" is the integration step here.
 """
 
-from __future__ import annotations
-
 import math
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 AGREE, ROUND_OFF = 0.01, 1e-9
 """A number has converged if halving the integration step changes it by at most the share AGREE, or by at most
@@ -22,7 +20,7 @@ class AtTwoSteps(NamedTuple):
     at_half: float
 
     @classmethod
-    def of(cls, x: AtTwoSteps | float) -> AtTwoSteps:
+    def of(cls, x: Self | float) -> Self:
         """x itself, or a number that needs no integration, which is the same at both steps."""
         return x if isinstance(x, AtTwoSteps) else cls(float(x), float(x))
 
@@ -43,9 +41,9 @@ class AtTwoSteps(NamedTuple):
         """
         return self.value == self.at_half or self.gap(round_off) <= AGREE
 
-    def over(self, other: AtTwoSteps) -> AtTwoSteps:
+    def over(self, other: Self) -> Self:
         """This number over the other, at each of the two steps; infinite over zero."""
-        return AtTwoSteps(*(a / b if b else math.inf for a, b in zip(self, other, strict=True)))
+        return type(self)._make(a / b if b else math.inf for a, b in zip(self, other, strict=True))
 
 
 NEGLIGIBLE = 1e-6

@@ -19,7 +19,7 @@ from math import tan
 import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.core.checks import check_fields
+from biped_adrc.core.checks import Checked
 from biped_adrc.core.errors import InputError, ModelError, SimulationError
 from biped_adrc.core.linear import solve
 from biped_adrc.core.shown import Shown
@@ -57,7 +57,7 @@ class PeriodicOrbit(Shown):
 
 
 @dataclass(frozen=True)
-class ReturnMap(Shown):
+class ReturnMap(Checked, Shown):
     """The map P in section coordinates s, for a walker and an integration method.
 
     Raises InputError for a walker with noise, whose state never returns.
@@ -82,7 +82,6 @@ class ReturnMap(Shown):
     """Engine: "compiled" or "pinocchio", which also replaces it where a part has no compiled form."""
 
     def __post_init__(self) -> None:
-        check_fields(self)
         check_engine(self.engine)
         w = self.walker
         if w.touchdown is not None or (w.sensors is not None and w.sensors.noisy):

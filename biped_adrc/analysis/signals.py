@@ -46,9 +46,9 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by, tracked_point
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.linear import lapack
-from biped_adrc.core.shown import Shown
+from biped_adrc.core.shown import Frozen
 from biped_adrc.core.timing import SAME_INSTANT
-from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.types import Array, Flags
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
@@ -64,7 +64,7 @@ FALLS = Status.FELL, Status.STALLED, Status.RAN_AWAY
 
 
 @dataclass(frozen=True)
-class Signals(Shown):
+class Signals(Frozen):
     """All signals of a walk; rows are the K stored nodes.
 
     Impacts and sample instants repeat their time, with the values before and after.
@@ -126,9 +126,6 @@ class Signals(Shown):
     foothold_height: Array
     """(K,) z of the stance foot in the world [m]."""
 
-    def __post_init__(self) -> None:
-        freeze(self, *(f.name for f in fields(self)))
-
     def __repr__(self) -> str:
         ends = f"{self.t[0]:.4g} to {self.t[-1]:.4g} s"
         return f"Signals({len(self.t)} nodes, {ends}, n = {self.q.shape[1]}, p = {self.u.shape[1]})"
@@ -148,13 +145,14 @@ class Signals(Shown):
     def before_fall(self) -> Signals:
         """These signals without their rows in a fall, where the error is NaN."""
         rows = ~np.any(np.isnan(self.error), axis=1)
-        if np.all(rows):
-            return self
-        return Signals(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
+        return self if np.all(rows) else self.of_rows(rows)
 
     def of_step(self, step: int) -> Signals:
         """The rows of one single support."""
-        rows = slice(*np.searchsorted(self.step, (step, step + 1)))
+        return self.of_rows(slice(*np.searchsorted(self.step, (step, step + 1))))
+
+    def of_rows(self, rows: Flags | slice) -> Signals:
+        """These rows of all signals."""
         return Signals(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
 
 

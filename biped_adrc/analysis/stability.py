@@ -290,10 +290,9 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
     """
     check_part(cycle, "cycle", Cycle)
     P = cycle.P
-    # a controller with states; where P starts it anew at each impact, its states are no part of the guess
+    # a controller with states; where P starts it anew at each impact, P leaves them out of the guess
     if len(cycle.guess) > 2 * P.walker.plant.n:
-        guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
-        orbit = P.fixed_point(guess)
+        orbit = P.fixed_point(cycle.guess)
         return CycleStability(orbit, StabilityTable(orbit.multipliers))
     # the fixed point to the residual SETTLES, and dP/ds by the variational equation there
     orbit, step = periodic_orbit(P, cycle.guess, SETTLES)

@@ -14,8 +14,8 @@ import numpy as np
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.shown import Frozen
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Trajectory
 
 
@@ -37,7 +37,7 @@ class TouchdownRates(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Detections(Shown):
+class Detections(Frozen):
     """The N touchdowns of a walk and their detections."""
 
     t: Array
@@ -48,9 +48,6 @@ class Detections(Shown):
     """Times of the detections without a touchdown [s]."""
     waits: bool = False
     """Whether the walk ended before the last touchdown was detected or missed; no share counts it."""
-
-    def __post_init__(self) -> None:
-        freeze(self, "t", "late", "false")
 
     @property
     def rates(self) -> TouchdownRates:

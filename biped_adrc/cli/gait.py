@@ -150,7 +150,7 @@ def _family(
     from one gait of the family to another. rough [m]: height of the rough ground. out: None for family.json.
     Raises InputError without speeds.
     """
-    from biped_adrc.analysis.gait_design import RESERVE, design_family, library
+    from biped_adrc.analysis.family_design import RESERVE, design_family, library
 
     if speeds is None:
         raise InputError("--steps is given without --speeds; a family needs both")

@@ -27,7 +27,6 @@ from biped_adrc.closed_loop.protocols import (
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.simulator import Progress, RunOptions
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
@@ -53,7 +52,7 @@ def stepping_loop(
             f"the walker has an error of the impact map, and {type(plant).__name__} takes none; leave that "
             "out, or walk on the rigid plant"
         )
-    if not isinstance(walker.timing, SampledTime):
+    if not walker.sampled:
         raise InputError(
             f"{type(plant).__name__} is controlled at ticks, and this walker acts at every instant; give a "
             "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
@@ -103,10 +102,9 @@ def walk_on(
     progress: called during the run. The states of the result have the walker's layout, (q, q', s, held). Raises
     InputError where (q, v) cannot be a start.
     """
-    assert isinstance(loop.timing, SampledTime)
     x0 = loop.initial_state(*start, mode)
     # a single support that takes too long is noticed at a tick, so up to one period late
-    longest = walker.max_step_time + loop.timing.period
+    longest = walker.max_step_time + loop.clock.period
     # the run ends after the last of these impacts, and at `end` at the latest
     end, last = mode.start + impacts * longest, (FOOT_STRIKE, impacts)
     options = RunOptions(end, mode.start, stop_after=last, progress=progress)

@@ -22,7 +22,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Generic, NamedTuple, Self, TypeVar
+from typing import Any, Generic, NamedTuple, Self, TypeVar, cast
 
 import numpy as np
 
@@ -186,6 +186,11 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def sampled(self) -> bool:
         """Whether the controller acts at ticks and its torque is held between them."""
         return isinstance(self.timing, SampledTime)
+
+    @property
+    def clock(self) -> SampledTime:
+        """Sampling period and delay [s] of a loop in sampled time."""
+        return cast(SampledTime, self.timing)
 
     @cached_property
     def held(self) -> HeldParts | None:

@@ -26,8 +26,7 @@ import numpy as np
 
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.output_adrc import OutputADRCController
-from biped_adrc.control.tracking import Gains, per_joint, unchanged
-from biped_adrc.core.errors import InputError
+from biped_adrc.control.tracking import Gains, check_joints, per_joint, unchanged
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.observers.base import Estimate, Observer
@@ -63,11 +62,7 @@ class B0ADRCController(OutputADRCController):
 
     def initial_state(self, m: Measurement) -> Any:
         """The observer at the measured y and y', with f^ = 0. Raises InputError for a wrong number of b_0."""
-        count, p = np.size(self.b_0), len(m.q_b)
-        if count not in (1, p):
-            raise InputError(
-                f"b_0 has {count} numbers, expected 1 or {p}: one for each joint with a motor"
-            )
+        check_joints(self.b_0, "b_0", len(m.q_b))
         return super().initial_state(m)
 
     def measured_output(self, m: Measurement) -> Estimate:

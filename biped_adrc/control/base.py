@@ -24,8 +24,8 @@ use it where no controller may interfere, such as for the conservation of energy
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple, NoReturn
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, NamedTuple, NoReturn, Self
 
 import numpy as np
 
@@ -33,13 +33,14 @@ from biped_adrc.core.checks import check_part, line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.once import once
 from biped_adrc.core.part import Part
-from biped_adrc.core.shown import as_line
+from biped_adrc.core.shown import shown
 from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
 
 
+@shown
 class Measurement(NamedTuple):
     """The measurement that a controller gets, from its sensors, with `terms` of the nominal model there.
 
@@ -81,9 +82,6 @@ class Measurement(NamedTuple):
         """Rates of the actuated joints (p,) [rad/s]."""
         return self.v[: len(self.terms.kappa)]
 
-    def __repr__(self) -> str:
-        return as_line(self)
-
 
 def measured(m: Measurement) -> Estimate:
     """The measured q_b, q_b' and the nominal model's xi, each (p,), as the three fields of an `Estimate`.
@@ -91,10 +89,6 @@ def measured(m: Measurement) -> Estimate:
     A law without an observer uses it in place of estimates, and an observer starts from it.
     """
     return Estimate(m.q_b, m.v_b, m.terms.xi)
-
-
-_OTHERS = "expected one such as NPDController or ADRCController"
-"""End of a message on a controller that lacks something: which controllers have it."""
 
 
 _GONE = {
@@ -220,9 +214,23 @@ class Controller(Part):
         how = "give timing=SampledTime(period), or hardware.period of a scenario"
         self._has_no("form but one in sampled time only", how)
 
-    def _has_no(self, what: str, how: str = _OTHERS) -> NoReturn:
+    def _has_no(self, what: str, how: str) -> NoReturn:
         """Raise InputError: this controller lacks `what`; how: what the user can do."""
         raise InputError(f"{type(self).__name__} has no {what}; {how}")
+
+
+class WithPeriod(Controller):
+    """Base of controllers whose sampled form is of the same class, with its field `period` set."""
+
+    period: float | None
+
+    def sampled(self, period: float) -> Self:
+        return replace(self, period=period)  # type: ignore[type-var]
+
+    def continuous(self) -> Self:
+        if self.period is not None:
+            self._only_sampled()
+        return self
 
 
 def nested(controller: Controller | None) -> Iterator[Controller]:

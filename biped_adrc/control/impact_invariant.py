@@ -48,7 +48,7 @@ from biped_adrc.control.around import ContactWindow
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of
-from biped_adrc.core.checks import check_part, spoken
+from biped_adrc.core.checks import spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.part import derived
@@ -82,8 +82,6 @@ class ImpactInvariant(ContactWindow):
     innovation: bool = False
 
     def __post_init__(self) -> None:
-        for name in ("rates", "innovation"):
-            check_part(getattr(self, name), f"{name} of ImpactInvariant", bool)
         why = "a touchdown is expected by the phase of a virtual constraint"
         # raises InputError where there is none; `_has_no` below raises it always
         tracked_constraint(self.inner, why)

@@ -27,13 +27,13 @@ ADRC. In general m extended states make a C(s) of order m + 2 with m poles at ze
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple, Self
 
 import numpy as np
 from scipy.linalg import expm
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Measurement, WithPeriod
 from biped_adrc.control.tracking import TABLE_II, Gains, output_matrix
 from biped_adrc.core.checks import PositiveFloat, check_part
 from biped_adrc.core.errors import InputError, check_positive
@@ -76,7 +76,7 @@ _COORDINATES = ChainObserver(1, 1.0)
 
 
 @dataclass(frozen=True)
-class NPIDController(Controller):
+class NPIDController(WithPeriod):
     """Feedback linearisation with a PID of the filtered error.
 
     reference: q_d. gains: K_p [1/s^2], K_d [1/s]. K_i [1/s^3]: on the integral. filter_bandwidth, damping: w
@@ -285,11 +285,3 @@ class NPIDController(Controller):
         if self.reset is ResetPolicy.RELABEL:  # of the measurement nothing is taken
             return FilterState(*(self.T @ x))
         return self.filter_at(x, e)
-
-    def sampled(self, period: float) -> Self:
-        return replace(self, period=period)
-
-    def continuous(self) -> Self:
-        if self.period is not None:
-            self._only_sampled()
-        return self

@@ -20,14 +20,12 @@ below k_2 T^2: with a smaller delta the torque chatters from one sample instant 
 kappa^-1 k_1 (k_2 T^2)^(1/2). A delta of a few k_2 T^2 ends that.
 """
 
-from __future__ import annotations
-
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Measurement, WithPeriod
 from biped_adrc.control.tracking import solved_acceleration
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.part import derived
@@ -36,7 +34,7 @@ from biped_adrc.gait.reference import Reference, ReferencePoint
 
 
 @dataclass(frozen=True)
-class SuperTwistingController(Controller):
+class SuperTwistingController(WithPeriod):
     """Super-twisting sliding mode control about the reference, smooth within a layer around
     sigma = e' + lambda e = 0.
 
@@ -101,11 +99,3 @@ class SuperTwistingController(Controller):
         exchange their names, and joint i takes entry swap[i] of (z, -z).
         """
         return relabelled(s, swap)
-
-    def sampled(self, period: float) -> SuperTwistingController:
-        return replace(self, period=period)
-
-    def continuous(self) -> SuperTwistingController:
-        if self.period is not None:
-            self._only_sampled()
-        return self

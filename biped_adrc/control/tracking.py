@@ -60,6 +60,15 @@ def per_joint(values: object, what: str) -> Array | float:
     return float(found) if found.ndim == 0 else read_only(found)
 
 
+def check_joints(values: Array | float, what: str, p: int) -> None:
+    """Raise InputError, which calls the values `what`, where they are neither one number nor p."""
+    count = np.size(values)
+    if count not in (1, p):
+        raise InputError(
+            f"{what} has {count} numbers, expected 1 or {p}: one for each joint with a motor"
+        )
+
+
 @dataclass(frozen=True)
 class Gains(Shown):
     """Gains of the feedback on the errors of angles and rates; those of Table II by default.
@@ -85,11 +94,7 @@ class Gains(Shown):
     def check(self, p: int) -> None:
         """Raise InputError for gains per joint whose number is not p."""
         for name in ("K_p", "K_d"):
-            count = np.size(getattr(self, name))
-            if count not in (1, p):
-                raise InputError(
-                    f"gain {name} has {count} numbers, expected 1 or {p}: one for each joint with a motor"
-                )
+            check_joints(getattr(self, name), f"gain {name}", p)
 
 
 TABLE_II = Gains(5000.0, 50.0)

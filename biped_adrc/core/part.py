@@ -55,8 +55,6 @@ class Setup:
     """Stands for the value of a field of `setup` where methods run on symbols, which must not use it."""
 
 
-MEMORY = "_once"
-"""Attribute of a part in which `core.once` keeps what was computed from it."""
 SETUP = {"setup": True}
 """Metadata of a dataclass field by which `setup` marks it."""
 
@@ -118,8 +116,8 @@ def with_fields(part: T, **values: Any) -> T:
     Derived numbers that were computed already are copied, not computed anew. For methods that run on symbols
     too: `dataclasses.replace` would check symbols as numbers.
     """
-    # without MEMORY: the results in it were computed from the old fields
-    return with_content(part, {k: x for k, x in vars(part).items() if k != MEMORY} | values)
+    # without what `core.once` keeps, which was computed from the old fields
+    return with_content(part, {k: x for k, x in vars(part).items() if k != "_once"} | values)
 
 
 @per_class

@@ -17,6 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.core.types import T, freeze
+
 LONGEST = 110
 """Longest line [characters]."""
 FEW = 6
@@ -81,6 +83,19 @@ class Shown(ByValue):
 
     def __repr__(self) -> str:
         return as_line(self)
+
+
+def shown(cls: type[T]) -> type[T]:
+    """Decorate a NamedTuple, which would have a repr of its own, so that its repr is `as_line`."""
+    cls.__repr__ = as_line  # type: ignore[method-assign]
+    return cls
+
+
+class Frozen(Shown):
+    """Base of dataclasses whose arrays are read-only views: the arrays stay writable for their owners."""
+
+    def __post_init__(self) -> None:
+        freeze(self, *vars(self))
 
 
 def as_line(thing: Any) -> str:

@@ -14,7 +14,7 @@ import numpy as np
 
 from biped_adrc.core.checks import line_of, returned, spoken
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, of_kind
 
 
 def flatten(tree: Any) -> Array:
@@ -42,8 +42,7 @@ def chosen(which: float, one: Any, other: Any) -> Any:
         raise InputError(f"a state is {names} or {others}; expected one class and shape")
     if isinstance(one, tuple):
         parts = [chosen(which, *pair) for pair in zip(one, other, strict=True)]
-        # _like: a tuple or NamedTuple of this class
-        return _like(type(one), parts)
+        return of_kind(type(one), parts)
     # np.where and no `if`: on symbols, whose truth is not known yet, both sides become code, and the choice is
     # made when that runs; 0.5 parts 0 from 1
     return one if one is None else np.where(which > 0.5, one, other)
@@ -52,13 +51,8 @@ def chosen(which: float, one: Any, other: Any) -> Any:
 def zeros_like(tree: Any) -> Any:
     """A tree of the same layout, with zeros."""
     if isinstance(tree, tuple):
-        return _like(type(tree), [zeros_like(x) for x in tree])
+        return of_kind(type(tree), [zeros_like(x) for x in tree])
     return tree if tree is None else np.zeros(np.shape(tree))
-
-
-def _like(kind: Any, parts: list[Any]) -> Any:
-    """A tuple or NamedTuple of the class `kind` with these parts."""
-    return kind._make(parts) if hasattr(kind, "_make") else kind(parts)
 
 
 class Layout(NamedTuple):
@@ -98,7 +92,7 @@ class Layout(NamedTuple):
             parts.append(part.tree(x[..., at : at + part.size]))
             at += part.size
         # a tuple or NamedTuple of the class `kind`
-        return _like(self.kind, parts)
+        return of_kind(self.kind, parts)
 
     def place(self, *path: str) -> slice:
         """The slice of the vector that a part of the tree takes; path: names of fields that lead to it from the
@@ -148,7 +142,7 @@ def returned_tree(
     layouts = (None,) * len(found) if layout is None else layout.parts
     each = zip(found, layouts, strict=True)
     # _or_none: checks a part, which may also be None; _like: a tuple of the same class as `found`
-    return _like(type(found), [_or_none(x, y, part, method, finite) for x, y in each])
+    return of_kind(type(found), [_or_none(x, y, part, method, finite) for x, y in each])
 
 
 def _tuple_text(kind: Any, parts: Any) -> str:

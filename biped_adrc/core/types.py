@@ -1,6 +1,6 @@
 """Types that all modules share: arrays, and records of plain values."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -49,9 +49,13 @@ def frozen(value: T) -> T:
         view.setflags(write=False)
         return view
     if isinstance(value, tuple):
-        parts = [frozen(part) for part in value]
-        return value._make(parts) if hasattr(value, "_make") else type(value)(parts)
+        return of_kind(type(value), map(frozen, value))
     return value
+
+
+def of_kind(kind: Any, parts: Iterable[object]) -> Any:
+    """A tuple, NamedTuple or list of the class `kind` with these members."""
+    return kind._make(parts) if hasattr(kind, "_make") else kind(parts)
 
 
 def relabelled(rows: Array, swap: Indices) -> Array:

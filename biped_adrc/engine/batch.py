@@ -26,7 +26,7 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import Measurement, has_own_class
-from biped_adrc.core.checks import PositiveInt, check_fields, check_part
+from biped_adrc.core.checks import Checked, PositiveInt, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.once import constant
 from biped_adrc.core.shown import Shown
@@ -56,7 +56,7 @@ _AT_ONCE = 25
 
 
 @dataclass(frozen=True)
-class Case(Shown):
+class Case(Checked, Shown):
     """One walk to be made, from a state or from the orbit of a gait.
 
     - walker: plant, controller and all the rest.
@@ -86,7 +86,6 @@ class Case(Shown):
 
     def __post_init__(self) -> None:
         """Take the start of the gait where q and v are left out; see the class."""
-        check_fields(self)
         if self.q is None or self.v is None:
             check_part(self.gait, "the gait of a case without q and v", Gait)
             # q, v of the gait on the controller's model, put past the frozen class's own refusal

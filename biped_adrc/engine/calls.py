@@ -27,13 +27,13 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.once import once
 from biped_adrc.core.part import content, with_content
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, of_kind
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.program import push_code
-from biped_adrc.engine.structure import floats, rebuilt, structure
+from biped_adrc.engine.structure import floats, structure
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
@@ -149,7 +149,7 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
             for at, x in zip(places, arguments, strict=True):
                 called.inp[at] = x
             parts = parts_of(called(), shapes)
-        return rebuilt(result, parts) if many else parts[0]
+        return of_kind(type(result), parts) if many else parts[0]
 
     return evaluated
 

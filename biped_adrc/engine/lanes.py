@@ -5,12 +5,10 @@ them changes a bit by what walks beside it, or by the number of lanes. `engine.s
 sample, `engine.kernels.lanes` moves the walks.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from llvmlite import binding
@@ -41,6 +39,17 @@ def width() -> int:
     return 8 if features.get("avx512f") else 4 if features.get("avx") else 2
 
 
+class Team(NamedTuple):
+    """Memory of walks side by side, for the kernels in `kernels.lanes`."""
+
+    run: CompiledRun
+    """The record of what they have in common."""
+    ready: Ints
+    """Which lanes have a walk that may go side by side, as `record.Run.ready`."""
+    parts: list[NDArray[Any]]
+    """The arrays whose addresses the record has."""
+
+
 @dataclass(frozen=True)
 class Lanes:
     """Code for walks of one structure side by side."""
@@ -66,7 +75,7 @@ class Lanes:
         return program.key, structure(compiled.terms), numbers, curve
 
     @classmethod
-    def of(cls, compiled: CompiledWalker, read: bool, lanes: int | None = None) -> Lanes:
+    def of(cls, compiled: CompiledWalker, read: bool, lanes: int | None = None) -> Self:
         """Compile, or find, the code for walks like this one; lanes: how many, by default `width`."""
         program, lanes, terms = compiled.program, lanes or width(), compiled.terms
         more = int(compiled.plan["moving"]), int(compiled.plan["lags"]), lanes
@@ -118,17 +127,6 @@ def _text(what: str, *arguments: Any) -> str:
 
     text: str = getattr(stretch, f"{what}_text")(*arguments)
     return text
-
-
-class Team(NamedTuple):
-    """Memory of walks side by side, for the kernels in `kernels.lanes`."""
-
-    run: CompiledRun
-    """The record of what they have in common."""
-    ready: Ints
-    """Which lanes have a walk that may go side by side, as `record.Run.ready`."""
-    parts: list[NDArray[Any]]
-    """The arrays whose addresses the record has."""
 
 
 def aligned(size: int) -> Array:

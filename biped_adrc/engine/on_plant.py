@@ -54,10 +54,6 @@ def fastest_loop(
     return other_plant.stepping_loop(walker, plant, first_step, kind)
 
 
-COMPILED_MODEL = "compiled model"
-"""Name of the engine where the controller runs in Python on a compiled model."""
-
-
 @dataclass(frozen=True)
 class CompiledLoop(SteppingLoop):
     """A `SteppingLoop` in machine code: its walk is the same to round-off, and much faster.
@@ -88,7 +84,8 @@ class CompiledLoop(SteppingLoop):
             values["program"] = Program(self.layout_of(x), numbers)
             _ = values["program"].machine  # compiles, or raises NotCompiled
         except (NotCompiled, ModelError) as reason:
-            engine = {"engine": COMPILED_MODEL, "why": str(reason)}
+            # the controller runs in Python, on a compiled model
+            engine = {"engine": "compiled model", "why": str(reason)}
             values["program"] = None
             # []: gets the references that were compiled, of which nobody asks here
             values["controller"] = compiled_references(self.controller, self.plant.n, [])

@@ -29,7 +29,6 @@ from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop
 from biped_adrc.core.once import once
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
@@ -135,7 +134,8 @@ class Program:
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
-            code = generated(sizes, {name: partial(_matvec, *sizes)}, optimised=True)
+            traced = partial(_on_symbols, "matvec_function", *sizes)
+            code = generated(sizes, {name: traced}, optimised=True)
         return code.addresses.get(name, 0)
 
 
@@ -149,21 +149,15 @@ def push_code(term: Disturbance, n: int) -> Code:
     # compiled loops get the table `switches`, and could not call a `switching_times` of the user's
     if type(term).switching_times is not Disturbance.switching_times:
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
-    return generated(("push", n, structure(term)), {"push": partial(_push, term, n)})
+    traced = partial(_on_symbols, "push_function", term, n)
+    return generated(("push", n, structure(term)), {"push": traced})
 
 
-def _push(term: Disturbance, n: int) -> SymbolicFunction:
-    """The function `push` of a term on symbols; the import is here, as it brings CasADi in."""
-    from biped_adrc.engine.equations import push_function
+def _on_symbols(name: str, *arguments: object) -> SymbolicFunction:
+    """What the function `name` of `engine.equations` returns; the import is here, as it brings CasADi in."""
+    from biped_adrc.engine import equations
 
-    return push_function(term, n)
-
-
-def _matvec(k: int, p: int) -> SymbolicFunction:
-    """The function `matvec` on symbols, M (k, k) times E (k, p); the import is here, as it brings CasADi in."""
-    from biped_adrc.engine.equations import matvec_function
-
-    return matvec_function(k, p)
+    return getattr(equations, name)(*arguments)
 
 
 def at_rest(layout: Layout) -> Layout:
@@ -341,10 +335,10 @@ def _still(
     }
     # what is left out is 0: no clock, no lag
     fields = dict[str, float]()
-    if isinstance(walker.timing, SampledTime) and walker.held is not None:
-        T = walker.timing.period
+    if walker.held is not None:
+        T = walker.clock.period
         part = walker.held.motors.fraction * T  # what the delay has beyond whole periods [s]
-        fields |= {"period": T, "restart": walker.timing.restart, "part": part}
+        fields |= {"period": T, "restart": walker.clock.restart, "part": part}
     fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
     # coordinates, numbers in x, motors, rows of the stiff part E (k, p), and how many numbers of x flow
     fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}

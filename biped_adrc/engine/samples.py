@@ -31,7 +31,6 @@ from biped_adrc.control.around import AddedTorque
 from biped_adrc.core.checks import handing_out
 from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.once import once
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
@@ -216,7 +215,7 @@ class PythonWalk:
             place[:] = inputs[part]
         # over: arcs of the single supports that ended. The loop goes round again after an impact before `until`
         # with a clock that goes on: the rest of the sample is walked in the next single support
-        walk, over, timing = self, list[Arc](), cast(SampledTime, self.loop.timing)
+        walk, over, timing = self, list[Arc](), self.loop.clock
         while True:
             start = walk.mode.start if timing.restart else 0.0
             until = next_tick(walk.t, start, timing.period)

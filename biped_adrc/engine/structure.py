@@ -18,7 +18,7 @@ others too, unless it has a folder of its own for code (BIPED_ADRC_CACHE).
 import random
 import sys
 import types
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterator
 from enum import Enum
 from typing import Any
 
@@ -86,11 +86,6 @@ def _inside(tree: object) -> Iterator[tuple[str | int, object]]:
         yield from content(tree).items()
     elif isinstance(tree, LISTS):
         yield from zip(getattr(tree, "_fields", range(len(tree))), tree, strict=True)
-
-
-def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:
-    """A tuple, NamedTuple or list of the class of `like` with these members."""
-    return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 
 
 def structure(tree: Any, exact: bool = False) -> Hashable:

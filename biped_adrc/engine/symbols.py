@@ -25,9 +25,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.core.part import content, is_part, with_content
-from biped_adrc.core.types import Array, T, frozen
+from biped_adrc.core.types import Array, T, frozen, of_kind
 from biped_adrc.engine.not_compiled import NotCompiled
-from biped_adrc.engine.structure import HIDDEN, LISTS, REALS, floats, rebuilt
+from biped_adrc.engine.structure import HIDDEN, LISTS, REALS, floats
 
 _Number = Union["Scalar", float]
 """A symbol, or a number that is a constant of the expression."""
@@ -295,7 +295,7 @@ class Vector:
         """
         result: Any = tree
         if isinstance(tree, LISTS):
-            result = rebuilt(tree, [self.like(x) for x in tree])
+            result = of_kind(type(tree), [self.like(x) for x in tree])
         elif isinstance(tree, np.ndarray):
             result = self.take(*tree.shape) if tree.dtype.kind == "f" else tree
         elif is_part(tree) and not isinstance(tree, HIDDEN):

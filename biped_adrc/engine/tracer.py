@@ -26,9 +26,9 @@ from numpy.typing import NDArray
 
 from biped_adrc.core import checks, linear
 from biped_adrc.core.part import Part, content, derived, is_part, with_content
-from biped_adrc.core.types import T, frozen
+from biped_adrc.core.types import T, frozen, of_kind
 from biped_adrc.engine.not_compiled import Located, NotCompiled, located
-from biped_adrc.engine.structure import HIDDEN, is_library, rebuilt
+from biped_adrc.engine.structure import HIDDEN, is_library
 from biped_adrc.engine.symbols import (
     TWINS,
     Hidden,
@@ -186,7 +186,7 @@ class Tracer:
             return self._substitutes[id(value)][1]
         if isinstance(value, tuple | list):  # a list that the law changes would be a memory
             inside = [self.on_symbols(part) for part in value]
-            return Unchangeable(inside) if type(value) is list else rebuilt(value, inside)
+            return Unchangeable(inside) if type(value) is list else of_kind(type(value), inside)
         # HIDDEN: classes of what is neither number nor structure
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")

@@ -8,7 +8,7 @@
     Theta   phase c q [rad], Theta+ at the start of the step, Theta- just before the impact at its end
 
 The gait at one (v, L) is a *member* of the family. The map is fitted to a library of designed gaits
-(`analysis.gait_design`). It gives Theta+ of the periodic walk too, but a step that follows one of another
+(`analysis.family_design`). It gives Theta+ of the periodic walk too, but a step that follows one of another
 length begins in another posture: in the s of such a step Theta+ is the phase at which it really began.
 
 In each step the controller `control.footstep` decides on which member the step ends; the *decision* falls where
@@ -22,17 +22,19 @@ Theta has gone the share DECISION = 0.35 of its way. y = sigma^2 at the decision
     delta   sigma just after the impact over sigma just before it [1]
     W, J    integrals from the decision to the impact; W', J' from the impact to the next decision
 
-`StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too, and y at the decision of the periodic walks.
+`StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too, y at the decision of the periodic walks, and the
+slowest member on which a step may end.
 """
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
+from scipy.optimize import linprog
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.files import data_file, output_path, plain, reading, write_json
@@ -42,7 +44,7 @@ from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
 from biped_adrc.gait.curves import Bezier, bernstein_to_power
 from biped_adrc.model.biped import Biped
 
-_FORMAT = "biped_adrc family 2"
+_FORMAT = "biped_adrc family 3"
 """First entry of a family's file."""
 DECISION = 0.35
 """Share of a walking step, in Theta, at which `control.footstep` decides on which member the step ends."""
@@ -78,12 +80,24 @@ class PolynomialMap(Part):
     @classmethod
     def fit(cls, x: Array, y: Array, degree: int) -> Self:
         """The least-squares fit to N points x (N, d), y (N, m), with all monomials up to a total degree."""
+        monomials, A = cls._monomials(x, degree)
+        return replace(monomials, coefficients=read_only(np.linalg.lstsq(A, y, rcond=None)[0]))
+
+    @classmethod
+    def above(cls, x: Array, y: Array, degree: int) -> Self:
+        """The polynomials of least sum over N points x (N, d) that are nowhere below y (N, m) there."""
+        monomials, A = cls._monomials(x, degree)
+        c = [linprog(A.sum(axis=0), -A, -column, bounds=(None, None)).x for column in y.T]
+        return replace(monomials, coefficients=np.transpose(c))
+
+    @classmethod
+    def _monomials(cls, x: Array, degree: int) -> tuple[Self, Array]:
+        """All K monomials up to a total degree over the range of N points x (N, d), and their values (N, K)."""
         low, high = x.min(axis=0), x.max(axis=0)
         powers = tuple(e for e in product(range(degree + 1), repeat=x.shape[1]) if sum(e) <= degree)
         # coefficients I give the values of the monomials themselves
-        monomials = cls(powers, np.eye(len(powers)), 0.5 * (low + high), 0.5 * (high - low))
-        c = np.linalg.lstsq(np.array([monomials(row) for row in x]), y, rcond=None)[0]
-        return cls(powers, c, monomials.centre, monomials.scale)
+        result = cls(powers, np.eye(len(powers)), 0.5 * (low + high), 0.5 * (high - low))
+        return result, np.array([result(row) for row in x])
 
 
 @dataclass(frozen=True)
@@ -98,6 +112,9 @@ class StepMap(Part):
     of_cycle: PolynomialMap
     """(mean speed [m/s], L) of a periodic walk -> y at its decision; the fit of the curves moves the mean speed
     of the member v by some per cent from v."""
+    slowest: PolynomialMap
+    """(v, L) -> least speed [m/s] of the member on which a step of length L may end that begins on the member
+    v: on a slower one the foot would slip, or a motor be too weak."""
 
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
         """y [kg^2 m^4/s^2] at the next step's decision, from y at this step's decision.

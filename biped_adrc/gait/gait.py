@@ -24,8 +24,8 @@ import numpy as np
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.files import CONTROL, data_file, output_path, plain, reading, write_json
-from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.shown import Frozen
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import curve_kind
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -39,7 +39,7 @@ CLOSES = 1e-3
 
 
 @dataclass(frozen=True)
-class Gait(Shown):
+class Gait(Frozen):
     """A gait of one robot: its virtual constraint and the periodic orbit that walks along it.
 
     The orbit is stored by its state just before impact, from which the impact map gives the start of a step.
@@ -72,9 +72,6 @@ class Gait(Shown):
     """How it was made: method, source, command; free text by name."""
     slope: float = 0.0
     """Slope of the ground it walks on [rad], positive downhill."""
-
-    def __post_init__(self) -> None:
-        freeze(self, "q_minus", "v_minus")
 
     def __repr__(self) -> str:
         about = f"Gait('{self.name}', robot '{self.robot}', preset '{self.preset}', period {self.period:.4g} s"

@@ -28,7 +28,7 @@ import numpy as np
 
 from biped_adrc.core.checks import called_checked, returned
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.shown import Shown, as_line
+from biped_adrc.core.shown import Shown, shown
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Curve
@@ -43,6 +43,7 @@ _H = 4e-3
 """Distance of neighbouring points of the differences [rad]; the outer ones are 2 _H away."""
 
 
+@shown
 class OutputPoint(NamedTuple):
     """Outputs at one instant; p outputs, each in its own unit (such as rad or m), n coordinates."""
 
@@ -54,9 +55,6 @@ class OutputPoint(NamedTuple):
     """dy/dq (p, n), unit of y per rad."""
     drift: Array
     """Part of y'' that does not depend on q'' (p,), unit of y per s^2: y'' = J q'' + drift."""
-
-    def __repr__(self) -> str:
-        return as_line(self)
 
 
 class Outputs(Shown, ABC):

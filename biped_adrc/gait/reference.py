@@ -19,10 +19,11 @@ import numpy as np
 
 from biped_adrc.core.checks import called_checked, point_returned
 from biped_adrc.core.part import Part
-from biped_adrc.core.shown import as_line
+from biped_adrc.core.shown import shown
 from biped_adrc.core.types import Array
 
 
+@shown
 class ReferencePoint(NamedTuple):
     """The reference at one instant; p joints, n coordinates.
 
@@ -39,9 +40,6 @@ class ReferencePoint(NamedTuple):
     """Part of q_d'' (p,) [rad/s^2] that does not depend on q''."""
     H: Array
     """Matrix (p, n) of q_d'' = drift + H q'', dimensionless."""
-
-    def __repr__(self) -> str:
-        return as_line(self)
 
 
 class Reference(Part):

@@ -113,8 +113,15 @@ class ZeroDynamics(Shown):
     """G_N (K,) [N m]."""
 
     @classmethod
-    def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = _NODES) -> ZeroDynamics:
-        """Evaluate the model along the constraint at `nodes` Gauss nodes.
+    def of(
+        cls,
+        biped: Biped,
+        constraint: VirtualConstraint,
+        nodes: int = _NODES,
+        h: JointCurve | None = None,
+    ) -> ZeroDynamics:
+        """Evaluate the model along the constraint at `nodes` Gauss nodes. h: another curve that a step follows
+        between Theta+ and Theta- of the constraint; None for its own.
 
         Raises InputError where biped is no `Biped` or constraint no `VirtualConstraint`.
         """
@@ -124,7 +131,7 @@ class ZeroDynamics(Shown):
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s
-        rows = (configuration(constraint.phase, constraint.h, th) for th in theta)
+        rows = (configuration(constraint.phase, h or constraint.h, th) for th in theta)
         q, dq, ddq = map(np.array, zip(*rows, strict=True))
         # [-1]: the row of the coordinate without a motor
         inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])

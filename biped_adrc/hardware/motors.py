@@ -16,11 +16,9 @@ The delay is the clock's, `SampledTime(period, delay)`; rate limit and lag are `
 with a known delay the mean of the torque that acts in the period: `mean_command`.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -54,11 +52,10 @@ class Line(NamedTuple):
             return self.queue[..., -1, :]
         return self.u if self.waiting is None else self.waiting
 
-    def relabelled(self, swap: Indices) -> Line:
+    def relabelled(self, swap: Indices) -> Self:
         """The torques after an impact; swap (p,): motor i gets entry swap[i] of (torque, -torque)."""
         # `relabelled` in the next line is the function for one array, None stays None
-        each: Any = (x if x is None else relabelled(x, swap) for x in self)
-        return Line(*each)
+        return type(self)._make(x if x is None else relabelled(x, swap) for x in self)
 
 
 @dataclass(frozen=True)
@@ -89,10 +86,8 @@ class TorqueLine:
 
         The torque that leaves acts at once, or waits for the fraction of the delay while the old one acts on.
         """
-        queue, next_one = line.queue, u
-        if len(queue) > 0:
-            next_one = queue[0]
-            queue = np.concatenate((queue[1:], u[np.newaxis]))
+        queue = np.concatenate((line.queue, u[np.newaxis]))
+        next_one, queue = queue[0], queue[1:]
         # `closed_loop.semantics.release` puts the waiting torque in place of u at t_k + f T
         if line.waiting is not None:
             return Line(queue, line.u_m, next_one, line.u)

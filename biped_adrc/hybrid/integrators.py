@@ -20,9 +20,6 @@ from biped_adrc.core.types import Array
 Flow = Callable[[float, Array], Array]
 """f(t, x) -> x' (nx,), for t [s] and x (nx,)."""
 
-_LOST = (NotFiniteError, RanAwayError, SingularError)
-"""Errors that a flow raises at a state that no motion can have, such as the trial of too long a step."""
-
 
 class StepFailed(Exception):
     """The method cannot go on; the text is the solver's own."""
@@ -112,9 +109,10 @@ class Adaptive(Checked, Solver):
     def steps(self, f: Flow, t: float, x: Array, t_end: float) -> Iterator[Step]:
         """Iterate over the steps of DOP853 from (t, x), x (nx,), to t_end [s] under x' = f(t, x).
 
-        Where f raises an error of `_LOST` at a trial state, the solver gets NaN and tries a shorter step. If it
-        gives up, that error is raised, or StepFailed where f raised none. Raises StepFailed also for steps that
-        are too short (CROWDED), and NotFiniteError where f is not finite at (t, x).
+        Where f raises NotFiniteError, RanAwayError or SingularError, as at a trial state that no motion can
+        have, the solver gets NaN and tries a shorter step. If it gives up, that error is raised, or StepFailed
+        where f raised none. Raises StepFailed also for steps that are too short (CROWDED), and NotFiniteError
+        where f is not finite at (t, x).
         """
         from scipy.integrate import DOP853  # it takes long to load
 
@@ -124,7 +122,11 @@ class Adaptive(Checked, Solver):
             nonlocal last
             try:
                 dx, last = f(t, x), None
-            except _LOST as error:  # a step too long, which is rejected
+            except (
+                NotFiniteError,
+                RanAwayError,
+                SingularError,
+            ) as error:  # a step too long, which is rejected
                 dx, last = np.full_like(x, np.nan), last or error
             return dx
 

@@ -11,13 +11,13 @@ from typing import Any, Self
 import numpy as np
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.shown import Shown
+from biped_adrc.core.shown import Frozen, Shown
 from biped_adrc.core.types import Array, freeze, frozen
 from biped_adrc.hybrid.status import Status
 
 
 @dataclass(frozen=True)
-class Event(Shown):
+class Event(Frozen):
     """An event function that fired."""
 
     guard: str
@@ -28,9 +28,6 @@ class Event(Shown):
     """State before (nx,)."""
     x_plus: Array | None
     """State after (nx,); None where the run ended there."""
-
-    def __post_init__(self) -> None:
-        freeze(self, "x_minus", "x_plus")
 
 
 @dataclass(frozen=True)

@@ -35,13 +35,14 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.core.errors import SingularError
-from biped_adrc.core.shown import as_line
+from biped_adrc.core.shown import shown
 from biped_adrc.core.types import Array
 from biped_adrc.model.pinned import WORLD_AXES, XZ, frame_index, pinned_model, velocity_index
 from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors
 from biped_adrc.model.robots.urdf import Tree
 
 
+@shown
 class Impact(NamedTuple):
     """Result of the plastic impact of a state (q-, v-): the state (q, v) after it with the legs relabelled, the
     impulse (9), and the velocities (8) before relabelling.
@@ -66,9 +67,6 @@ class Impact(NamedTuple):
     def impulse_ratio(self) -> float:
         """|F_T| / F_N, dimensionless: the coefficient of dry friction that the impact requires."""
         return float(abs(self.impulse[0]) / self.impulse[1])
-
-    def __repr__(self) -> str:
-        return as_line(self)
 
 
 class FloatingDynamics:

@@ -29,10 +29,11 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.core.linear import solve_positive
-from biped_adrc.core.shown import as_line
+from biped_adrc.core.shown import shown
 from biped_adrc.core.types import Array, read_only
 
 
+@shown
 class Reduction(NamedTuple):
     """Terms of the reduced model at one state; n coordinates, the first p of them actuated."""
 
@@ -51,10 +52,8 @@ class Reduction(NamedTuple):
     a_N: Array
     """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
 
-    def __repr__(self) -> str:
-        return as_line(self)
 
-
+@shown
 class BodyTerms(NamedTuple):
     """Terms of the whole robot at one state that few controllers need, besides its `Reduction`.
 
@@ -74,9 +73,6 @@ class BodyTerms(NamedTuple):
     """dp_2/dq (2, n) [m] of the position (x, z) of the swing foot."""
     mass: float
     """Mass of the whole robot [kg]."""
-
-    def __repr__(self) -> str:
-        return as_line(self)
 
 
 @lru_cache(maxsize=16)

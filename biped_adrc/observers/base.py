@@ -39,10 +39,11 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_count, check_positive, check_whole
 from biped_adrc.core.once import once
 from biped_adrc.core.part import Part
-from biped_adrc.core.shown import as_line
+from biped_adrc.core.shown import shown
 from biped_adrc.core.types import Array, Indices, relabelled
 
 
+@shown
 class Estimate(NamedTuple):
     """Estimates of position, velocity and disturbance of the p joints, each (p,)."""
 
@@ -52,9 +53,6 @@ class Estimate(NamedTuple):
     """x2^ [rad/s]."""
     disturbance: Array
     """xi^ = x3^ [rad/s^2]."""
-
-    def __repr__(self) -> str:
-        return as_line(self)
 
 
 class ResetPolicy(Enum):

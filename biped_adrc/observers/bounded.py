@@ -9,10 +9,8 @@ disturbance, else the rest is not rejected. The bound on an estimate against pea
 J. Control 56(5), 1992; Freidovich, Khalil, IEEE TAC 53(10), 2008.
 """
 
-from __future__ import annotations
-
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 
@@ -36,7 +34,7 @@ class BoundedObserver(Observer):
     MAKERS = ("from_bandwidth",)
 
     @classmethod
-    def from_bandwidth(cls, bound: float, bandwidth: float, m: int = 1) -> BoundedObserver:
+    def from_bandwidth(cls, bound: float, bandwidth: float, m: int = 1) -> Self:
         """The bound around `GPIObserver.from_bandwidth`, with all m + 2 poles at -bandwidth [rad/s]."""
         return cls(GPIObserver.from_bandwidth(bandwidth, m), bound)
 
@@ -66,8 +64,8 @@ class BoundedObserver(Observer):
     def predict(self, z: Any, input: Array) -> Any:
         return self.inner.predict(z, input)
 
-    def sampled(self, period: float) -> BoundedObserver:
-        return BoundedObserver(self.inner.at_ticks(period), self.bound)
+    def sampled(self, period: float) -> Self:
+        return replace(self, inner=self.inner.at_ticks(period))
 
     def error_system(self) -> ErrorSystem | None:
         return self.inner.error_system()

@@ -223,16 +223,14 @@ def phase_rate(x_minus: Array) -> float:
 
 LEAST_PRINTED = min(PUBLISHED_MULTIPLIERS)
 """The least of the multipliers that section VI prints."""
-PRINTED_SPEED = phase_rate(X_STAR)
-"""Theta' of x* [rad/s]."""
 
 
 def speed_error(found: PoincareResult | str) -> AtTwoSteps:
     """|Theta' / Theta'* - 1|: relative difference of Theta' before an impact from that of the paper's x*; NaN
     where no cycle was found.
     """
-    # PRINTED_SPEED: Theta' of x* as printed
-    return of_orbit(lambda orbit: abs(phase_rate(orbit.x_minus) / PRINTED_SPEED - 1.0), found)
+    printed = phase_rate(X_STAR)
+    return of_orbit(lambda orbit: abs(phase_rate(orbit.x_minus) / printed - 1.0), found)
 
 
 def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:

@@ -64,8 +64,8 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
     # fixed point and multipliers at the integration step h [s]
     def orbit(h: float) -> PeriodicOrbit:
         cycle = gait_map(run.replace(run={"h": h}), with_states)
-        # P is the return map, the guess the state on the gait's orbit; without the controller's states (q, q')
-        return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
+        # P is the return map, the guess the state on the gait's orbit, of which P takes what it maps
+        return cycle.P.fixed_point(cycle.guess)
 
     delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
     return PoincareResult(orbit(COARSE), orbit(0.5 * COARSE), delta**2)

@@ -13,13 +13,11 @@ coordinates and rates, the first p of them of joints with motors. Called by `wal
 processes, which receive the scenario alone.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any, cast
+from typing import Any, Self, cast
 
 import numpy as np
 
@@ -55,8 +53,6 @@ RIGID = "rigid"
 """Name of a walker's own plant: the stance foot is pinned, impacts are plastic and take no time."""
 OF_GROUND = ("friction", "time_constant", "damping_ratio")
 """Values of the record of the ground that soft ground takes."""
-WITHOUT_MOTORS = ("robot", "controller.name", "run", "limits", "ground.slope")
-"""Values and records of a scenario that have an effect for a robot without motors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +74,7 @@ class RobotAndGait:
     """Robots with model errors that were made already: the candidates of a search walk the same ones."""
 
     @classmethod
-    def of(cls, s: Scenario) -> RobotAndGait:
+    def of(cls, s: Scenario) -> Self:
         """Robot and gait of a scenario, from files or from the user's own classes.
 
         Raises InputError for a robot or a gait that there is not, GaitError for a gait that does not fit or,
@@ -226,9 +222,10 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
 
     Raises InputError for values that have no effect without motors.
     """
-    # WITHOUT_MOTORS: beginnings of the names of values that have an effect here
+    # beginnings of the names of values that have an effect here
+    effective = ("robot", "controller.name", "run", "limits", "ground.slope")
     for name in s.dotted():
-        if not name.startswith(WITHOUT_MOTORS):
+        if not name.startswith(effective):
             raise InputError(f"robot '{s.robot.name}' has no motors, so no {name}; leave it out")
     slope, time, speed = scene.slope(s), known.max_step_time, s.run.runaway_speed
     return Walker(scene.biped, Passive(), slope=slope, max_step_time=time, runaway_speed=speed)

@@ -42,8 +42,6 @@ BURIED = 5e-3
 deep."""
 LONGER = 1.1
 """Largest integration step over the observer's shortest time constant [1]; multiple poles have round-off."""
-_FILTERS = ("filter_time", "angle_filter")
-"""Fields of an observer and of encoders with the time constant of the low-pass on the angle."""
 SAME_CURVE = 1e-6
 """Curves that differ by no more than this [rad] count as the same, stored or fitted twice."""
 
@@ -98,10 +96,8 @@ def _of_observer(walker: Walker, law: str, observer: Any) -> Iterator[str]:
     encoders, and for one whose slowest pole is beyond the sampling; law: name of its controller.
     """
     # time constants [ms] of the low-pass that the observer knows, and of the one that there is
-    knows, has = (
-        1e3 * getattr(x, name, 0.0)
-        for x, name in zip((observer, walker.sensors), _FILTERS, strict=True)
-    )
+    knows = 1e3 * getattr(observer, "filter_time", 0.0)
+    has = 1e3 * getattr(walker.sensors, "angle_filter", 0.0)
     if observer is not None and knows != has:
         what = f"the observer of {law} knows a low-pass of {knows:g} ms on the angles"
         yield f"{what}, and the encoders have one of {has:g} ms"

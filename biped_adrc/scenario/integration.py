@@ -217,12 +217,7 @@ def runs_in_parts(
     events since the start of the first part.
     """
     done = 0  # events of the parts before
-
-    def shown(t: float, events: int) -> None:
-        assert progress is not None
-        progress(t, done + events)
-
-    report = progress and shown
+    report = progress and (lambda t, events: progress(t, done + events))
     for part in parts:
         t0, count = mode.start, part.impacts
         end = t0 + count * walker.max_step_time

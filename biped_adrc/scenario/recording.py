@@ -48,8 +48,8 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.errors import InputError, optional
 from biped_adrc.core.files import joint_columns, write_csv
-from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.shown import Frozen, Shown
+from biped_adrc.core.types import Array
 from biped_adrc.core.versions import versions
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import TimeReference
@@ -78,7 +78,7 @@ _OF_JOINTS = {
 
 
 @dataclass(frozen=True)
-class Outcome(Shown):
+class Outcome(Frozen):
     """The numbers that are kept of a scenario's walk: small enough to be sent back by a worker process.
 
     A walk itself holds megabytes of states; the reproduction of the paper compares outcomes.
@@ -112,9 +112,6 @@ class Outcome(Shown):
     """The same run with every integration step half as long: the difference of the two estimates the error of
     integration in every number here, since halving the step makes RK4's error 16 times smaller. Its own half is
     None."""
-
-    def __post_init__(self) -> None:
-        freeze(self, "x_minus", "durations")
 
     @property
     def walked(self) -> bool:

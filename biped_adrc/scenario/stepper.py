@@ -37,7 +37,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
-from biped_adrc.core.shown import as_line, short
+from biped_adrc.core.shown import short, shown
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.record import Ints
@@ -59,6 +59,7 @@ _STATUS = np.array([*STATUS, None], dtype=object)
 """Status of a walk by its code; the last one is for a walk that has not begun, with the code -1."""
 
 
+@shown
 class Sample(NamedTuple):
     """N walks, each at its last sample instant, or at its end; all arrays are read-only."""
 
@@ -70,9 +71,6 @@ class Sample(NamedTuple):
     """Numbers of the single supports (N,)."""
     status: NDArray[np.object_]
     """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
-
-    def __repr__(self) -> str:
-        return as_line(self)
 
 
 Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]

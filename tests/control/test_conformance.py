@@ -175,7 +175,7 @@ ABSOLUTE = np.array([[1, 0, 0, 0, 1], [0, 1, 0, 0, 1], [1, 0, 1, 0, 1], [0, 1, 0
 IN_PYTHON = {"CLF-QP", "output NPD", "finite time"}
 """Controllers that call a solver of their own; all other things of the registry compile."""
 EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
-PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
+PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController", "WithPeriod"}
 PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),

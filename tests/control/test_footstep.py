@@ -7,22 +7,23 @@ sigma^2 at the decisions of a simulated walk, and `family.steps` has polynomials
 
     sigma^2 at the next decision = delta^2 (sigma^2 + 2 W + 2 r J) + 2 W' + 2 r J'
 
-with r the torque of a force from outside. `step_integrals` gives delta^2, 2 W', J', .., 2 W, J by quadratures.
+with r the torque of a force from outside. `TwoSteps` has delta^2, 2 W', J', .., 2 W, J by quadratures.
 A stone is where a step has to end.
 """
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis import gait_design
-from biped_adrc.analysis.gait_design import OF_LIBRARY, library, step_integrals
+from biped_adrc.analysis import family_design
+from biped_adrc.analysis.family_design import OF_LIBRARY, TwoSteps, library
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import data_file
-from biped_adrc.gait.family import DECISION, load_family
+from biped_adrc.gait.family import DECISION, PolynomialMap, load_family
 from biped_adrc.model.ground import Stones
 from biped_adrc.scenario.scenario import read_scenario, scenario_lines
 
@@ -110,7 +111,7 @@ def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_pat
     with pytest.raises(GaitError, match="2 speeds and 1 lengths, expected at least 5"):
         library(biped, [0.5, 0.6], [0.3])
     path.write_text('{"format": "another"}')
-    with pytest.raises(GaitError, match="it is no family, whose format is 'biped_adrc family 2'"):
+    with pytest.raises(GaitError, match="it is no family, whose format is 'biped_adrc family 3'"):
         load_family(path, biped)
 
 
@@ -131,21 +132,21 @@ def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
         zero = ba.ZeroDynamics.of(biped, flat.member(request.speed, request.step), 8)
         return SimpleNamespace(gait=ba.Gait.of_cycle("a", zero, dict.fromkeys(OF_LIBRARY, "x")))
 
-    monkeypatch.setattr(gait_design, "optimise", optimise)
-    monkeypatch.setattr(gait_design, "_SAMPLES", 90)
+    monkeypatch.setattr(family_design, "optimise", optimise)
+    monkeypatch.setattr(family_design, "_SAMPLES", 90)
     gaits = library(biped, speeds, lengths, done=spoken.append)
     # pair 7, from 0, is the second speed with the third length; spoken: a line about each pair
     assert (len(gaits), spoken[7]) == (24, f"{speeds[1]:g} m/s, {lengths[2]:g} m: none, none here")
     assert spoken[0] == f"{speeds[0]:g} m/s, {lengths[0]:g} m: {gaits[0][2].period:.3f} s"
-    found = gait_design.design_family("mine", biped, gaits, {"command": "c"}, seed=1)
+    found = family_design.design_family("mine", biped, gaits, {"command": "c"}, seed=1)
     assert found.provenance == {**dict.fromkeys(OF_LIBRARY, "x"), "command": "c"}
     assert (found.low.tolist(), found.high.tolist()) == (flat.low.tolist(), flat.high.tolist())
     mu = np.array((0.77, 0.37))
     np.testing.assert_allclose(found.curve(mu)[0], flat.curve(mu)[0], rtol=0.0, atol=1e-9)
     assert found.curve(mu)[1:] == pytest.approx(flat.curve(mu)[1:], abs=1e-9)
     # speed at the end of the first step, lengths of the step before and of it, speed and length of the second
-    W, J = step_integrals(biped, flat, 0.7, 0.34, 0.34, 0.8, 0.4)[-2:]
-    delta2, W_next, J_next = step_integrals(biped, flat, 0.8, 0.34, 0.4, 0.8, 0.36)[:3]
+    W, J = TwoSteps.of(biped, flat, 0.7, 0.34, 0.34, 0.8, 0.4).numbers()[-2:]
+    delta2, W_next, J_next = TwoSteps.of(biped, flat, 0.8, 0.34, 0.4, 0.8, 0.36).numbers()[:3]
     exact = delta2 * (400.0 + W - 6.0 * J) + W_next - 6.0 * J_next
     for steps in (found.steps, flat.steps):
         # from sigma^2 = 400 at v 0.7, 0.34 m before, to the end at 0.8 m/s and 0.4 m; then 0.36 m
@@ -238,12 +239,34 @@ def test_each_speed_of_a_schedule_is_reached(biped, slow):
 
 
 def test_the_robot_slows_down_over_several_steps(biped, slow):
-    """From 1.0 m/s, at the end of the list, to 0.5 m/s: at once, it would lose its grip and fall."""
-    schedule = {"speeds": (0.7, 0.8, 0.9) + (1.0,) * 5, "speed": 0.5}
-    walk = ba.walk(walker(biped, slow, step=0.4, **schedule), slow, impacts=16)
+    """From 1.0 m/s, at the end of the list, to 0.5 m/s: as fast as the family lets it, in some step just so.
+    With a family that lets each step end on all members it loses its grip or falls.
+    """
+    schedule = {"speeds": (0.7, 0.8, 0.9) + (1.0,) * 5, "speed": 0.5, "step": 0.4}
+    walk = ba.walk(walker(biped, slow, **schedule), slow, impacts=16)
     assert walk.feasibility.outcome == "feasible"
+    family = walk.walker.controller.family
     own = [walk.walker.split_state(arc.x[-1])[2].own for arc in walk.trajectory.arcs]
-    assert min(w.end - w.begin for w in own) == pytest.approx(-0.15)
+    room = [w.end - family.steps.slowest(np.array((w.begin, w.L)))[0] for w in own]
+    assert min(room) == pytest.approx(0.0, abs=1e-9)
+    every = PolynomialMap(((0, 0),), family.low[:1, np.newaxis], family.low, family.high)
+    free = replace(family, steps=replace(family.steps, slowest=every))
+    law = replace(walk.walker.controller, family=free)
+    at_once = ba.walk(ba.Walker(biped, law, timing=CLOCK, torque_limit=150.0), slow, impacts=16)
+    assert at_once.feasibility.outcome != "feasible"
+
+
+@pytest.mark.parametrize("name", ["rough", "flat"])
+def test_a_step_may_end_where_ground_and_motors_bear_it(biped, name):
+    """On the slowest member that is stored a step is borne, and not on one that is 0.25 m/s slower."""
+    family, limits = load_family(name, biped), ba.Limits().of(biped.description)
+    for v, L in ((0.95, 0.34), (1.0, 0.4)):
+        least = family.steps.slowest(np.array((v, L)))[0]
+        assert family.low[0] + 0.25 < least < v
+        y = family.steps.cycle_square(v, L)
+        ends = (v, least, least - 0.25)
+        borne = [TwoSteps.of(biped, family, v, L, L, x, L).borne(y, limits) for x in ends]
+        assert borne == [True, True, False]
 
 
 def test_a_schedule_ends_at_the_speed_to_keep(biped, slow):
@@ -359,7 +382,7 @@ def test_the_stored_map_is_that_of_the_integrals_over_a_step(biped):
     low, high = np.array(family.low), np.array(family.high)
     (v, L), (end, ahead) = 0.5 * (low + high), 0.45 * low + 0.55 * high
     for x in ((v, L, L, v, L), (v, L, ahead, end, L)):
-        found = step_integrals(biped, family, *x)
+        found = TwoSteps.of(biped, family, *x).numbers()
         at = dict(zip(("v", "before", "L", "end", "ahead"), x, strict=True))
         stored = family.steps.to_impact(np.array([at[k] for k in ("v", "end", "L", "ahead")]))
         decision = family.steps.to_decision(

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import csv
-import json
 import math
 from collections.abc import Iterable
 from itertools import groupby
@@ -18,10 +17,8 @@ from pathlib import Path
 from typing import Any
 
 import biped_adrc as ba
-from biped_adrc.studies.build import SEED, scenario_of, scene_of
+from biped_adrc.studies.build import scenario_of, scene_of
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.run import run_trials
-from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.study import read_study
 from validation.findings import comparison, page, searches
 from validation.findings.comparison import ROOT
@@ -69,16 +66,18 @@ def counts(found: Results) -> Iterable[dict[str, Any]]:
 
 
 def margins(rows: list[dict[str, str]]) -> Iterable[dict[str, Any]]:
-    """For the best search of each controller at each place: delay and disk margin, the ripple that encoders
-    leave in the torque, H of the ground by `rough_estimate`, and what stopped its search.
+    """For each search: delay and disk margin, and the ripple that encoders leave in the torque; for the best of
+    each controller at each place H of the ground by `rough_estimate`, too.
     """
     from biped_adrc.analysis.rough_estimate import rough_estimate
     from biped_adrc.scenario.build import build
     from biped_adrc.scenario.cycle import specification_of
 
-    for r in comparison.best_of(rows):
-        at = r["hardware"], r["tuning"]
-        tables = comparison.tables_of(*at, [r])
+    best = comparison.best_of(rows)
+    for r in rows:
+        if not r["values"]:
+            continue
+        tables = comparison.tables_of(r["hardware"], r["tuning"], [r])
         # margins and H are those of the nominal robot at the nominal delay
         base = {k: v for k, v in tables["base"].items() if k not in ("errors", "start")}
         (case,) = (x for name, x in tables["cases"].items() if not name.startswith("Table I"))
@@ -91,36 +90,11 @@ def margins(rows: list[dict[str, str]]) -> Iterable[dict[str, Any]]:
         for name in ("delay_margin", "disk_margin", "ripple"):
             x = float(getattr(spec, name))
             row[name] = f"{x:.3g}" if math.isfinite(x) else ""
-        estimate = rough_estimate(build(s, scene), scene.walked, highest=0.05)
-        row["H"] = f"{min(estimate.reaches().values()):.3g}"
-        row["stop"] = stop_of(r)
-        print(row, flush=True)
+        row["H"] = ""
+        if r in best:
+            estimate = rough_estimate(build(s, scene), scene.walked, highest=0.05)
+            row["H"] = f"{min(estimate.reaches().values()):.3g}"
         yield row
-
-
-def stop_of(r: dict[str, str]) -> str:
-    """What stopped the search of a row, in words: settings beside the chosen one on the walks of choice."""
-    study = read_study(searches.study_of(r["hardware"], r["gait"], r["tuning"]))
-    search = study.search
-    assert search is not None
-    base = study.values_of(f"{r['controller']} #1")
-    places = [
-        (name, values | {SEED: seed})
-        for name, values in study.conditions.items()
-        for seed in search.walks.choice.seeds
-    ]
-
-    def judged(chosen: dict[str, Any]) -> Candidate:
-        """The candidate of a setting, walked."""
-        values = search.values(base, chosen)
-        found = run_trials([{**values, **at} for _, at in places])
-        names = [name for name, _ in places]
-        return search.judged(base, 0, chosen, list(zip(names, found, strict=True)))
-
-    c = judged(json.loads(r["values"]))
-    if not c.feasible:
-        return "not tuned: rounded to four digits it misses a limit"
-    return search.stop(c, {k: judged(x) for k, x in search.beside(base, c).items()})
 
 
 def walk(out: Path, names: Iterable[str], workers: int | None) -> None:

@@ -229,8 +229,8 @@ def fields() -> dict[str, Any]:
     rough = ("rabbit", "rough", "tracking")
     ground = {gait: ("rabbit", gait, "ground", "m = 1") for gait in PLAN["gaits"]}
     of_ground, of_tracking = ("exact", "v0.6", "ground", "NPD"), (*exact, "NPD")
-    tracking = PLAN["tunings"]["tracking"]
-    budgets = (tracking["budget"], *tracking["fewer"].values(), PLAN["tunings"]["ground"]["budget"])
+    plans = (PLAN["search"], *PLAN["search_more"].values())
+    budgets = [x["budget"] for x in plans]
     walked_10 = [
         fine((hardware, "v0.6", "ground", c), "10 mm")
         for hardware in PLAN["hardware"]
@@ -260,19 +260,10 @@ def fields() -> dict[str, Any]:
         "failed": failures(),
         "stop": stops(),
         "exact": Names(
-            **{
-                name: ratio_in_words((*exact, one), (*exact, other))
-                for name, one, other in (
-                    ("pid", "PID", "NPD"),
-                    ("st", "super twisting", "NPD"),
-                    ("b0", "ADRC b0", "NPD"),
-                    ("b0m", "ADRC b0", "m = 1"),
-                )
-            }
+            b0m=ratio_in_words((*exact, "ADRC b0"), (*exact, "m = 1")),
+            st=ratio_in_words((*exact, "super twisting"), (*exact, "NPD")),
         ),
         "ground": Names(
-            tuned=feasible(of_ground, "10 mm"),
-            tracked=feasible(of_tracking, "10 mm"),
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
@@ -283,54 +274,34 @@ def fields() -> dict[str, Any]:
         ),
         "margin": Names(
             b0=margin((*exact, "ADRC b0"), "disk_margin"),
-            m1=margin((*exact, "m = 1"), "disk_margin"),
-        ),
-        "high": Names(
-            ground=f"{1e3 * float(margin(of_ground, 'H')):.2g}",
-            tracking=f"{1e3 * float(margin(of_tracking, 'H')):.2g}",
+            none=sum(r["disk_margin"] == "0" for r in rows("margins")),
+            count=len(rows("margins")),
         ),
         "gait": Names(
             rough20=feasible(ground["rough"], "20 mm"),
             level20=feasible(ground["v0.6"], "20 mm"),
-            pd20=feasible(("rabbit", "v0.6", "ground", "PD"), "20 mm"),
-            exact=in_words(
-                statistics.compare(
-                    side_of(("exact", "rough", "ground", "m = 1"), "10 mm"),
-                    side_of(("exact", "v0.6", "ground", "m = 1"), "10 mm"),
-                    "share",
-                    DRAWN,
-                )
-            ),
         ),
         "load": Names(
-            light=by_name(rabbit, "masses x 0.7"),
-            heavy=by_name(rabbit, "masses x 1.5"),
+            adrc=lighter(rabbit),
+            npd=fine((*rabbit, "NPD"), "masses x 0.7"),
+            adrc_rough=lighter(rough),
+            npd_rough=fine((*rough, "NPD"), "masses x 0.7"),
             ground=feasible(ground["v0.6"], "masses x 0.7"),
         ),
         "soft": of_soft(),
         "hip": Names(
             npd=largest_force("NPD", "exact sensors"),
-            pi=largest_force("stride PI", "exact sensors"),
             step=largest_force("footstep, 0.25 m", "exact sensors"),
-            late=largest_force("footstep, 0.25 m", "encoders, 1 ms late"),
-            later=largest_force("footstep, 0.34 m", "encoders, 1 ms late"),
         ),
         "spread": Names(npd=spread((*rabbit, "NPD")), m1=spread((*rabbit, "m = 1"))),
-        "rough": Names(searched=controllers_at("rabbit", "rough", "ground")),
         "heights": Names(
             level=walks_of("reset, v0.6", "20 mm"),
             npd=walks_of("NPD, rough", "20 mm"),
             rough=walks_of("reset, rough", "20 mm"),
-            level10=walks_of("reset, v0.6", "10 mm"),
-            npd10=walks_of("NPD, rough", "10 mm"),
-            footstep=walks_of("footstep, rough", "20 mm"),
-            flat=walks_of("reset, flat", "20 mm"),
         ),
         "plan": Names(low=min(budgets), high=max(budgets)),
         "orders": Names(
             most=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (1, 2, 3, 5, 7)),
-            sine1=at_least("m = 1", "sine, 20 N m"),
-            sine2=at_least("m = 2", "sine, 20 N m"),
         ),
     }
 
@@ -380,51 +351,39 @@ def gains(at: Place) -> str:
 
 def stops() -> Names:
     """Of how many best searches a limit, or nothing, is what stopped them."""
-    every = [r["stop"] for r in rows("margins")]
-    better = sum(x.startswith("not tuned: better") for x in every)
-    rounded = sum("rounded" in x for x in every)
+    best = comparison.best_of(rows("settings"))
+    every = [r["stop"] for r in best]
     limit = sum("1 ms more" in x for x in every if not x.startswith("not tuned"))
-    ground = [r["stop"] for r in rows("margins") if r["tuning"] == "ground"]
-    untuned = sum(x.startswith("not tuned") for x in ground)
-    words = f"{untuned} of {len(ground)}"
-    return Names(count=len(every), limit=limit, better=better, rounded=rounded, ground=words)
+    untuned = [r["tuning"] for r in best if r["stop"].startswith("not tuned")]
+    tunings = [r["tuning"] for r in best]
+    words = f"{untuned.count('ground')} of {tunings.count('ground')}"
+    sides = (tuple(q[k]) for q in statistics.questions()["question"] for k in ("one", "other"))
+    asked = {at: best_row(at)["stop"].partition(";")[0] for at in sides}
+    some = [f"{at[-1]} ({x})" for at, x in asked.items() if x.startswith("not tuned")]
+    sides_in_words = ", ".join(dict.fromkeys(some)).replace("not tuned: ", "")
+    return Names(
+        count=len(every), limit=limit, untuned=len(untuned), ground=words, asked=sides_in_words
+    )
 
 
-def by_name(at: tuple[str, str, str], condition: str) -> str:
-    """Feasible walks of the best search of each controller at a place, such as "PD 8, NPD 5"."""
-    sides = {c: side((*at, c), condition) for c in PLAN["controllers"]}
-    fine = {c: np.isfinite(x.errors[x.best]).sum() for c, x in sides.items() if x is not None}
-    return ", ".join(f"{c.removeprefix('ADRC ')} {n}" for c, n in fine.items())
+def lighter(at: tuple[str, str, str]) -> str:
+    """Feasible walks of the ADRC laws at a place with all masses times 0.7."""
+    laws = ("ADRC b0", "assisted, m = 1", "cascade", "m = 1")
+    return ", ".join(str(fine((*at, c), "masses x 0.7")) for c in laws)
 
 
 def of_soft() -> Names:
-    """Feasible walks on MuJoCo's ground by controller: level and pushed, and with more trunk."""
-    hard: dict[str, int] = {}
-    trunk: dict[str, int] = {}
-    for r in rows("comparison_soft"):
-        count = trunk if r["condition"] == "trunk +30 %" else hard
-        count[r["controller"]] = count.get(r["controller"], 0) + int(r["feasible"])
-    each, more = (", ".join(f"{k} {n}" for k, n in x.items()) for x in (hard, trunk))
-    return Names(each=each, trunk=more)
+    """Feasible walks on MuJoCo's ground, level and pushed, by controller."""
+    names = {"m = 1": "m1", "assisted, m = 1": "assisted", "NPD": "npd"}
+    hard = [r for r in rows("comparison_soft") if r["condition"] != "trunk +30 %"]
+    mine = {k: [int(r["feasible"]) for r in hard if r["controller"] == k] for k in names}
+    return Names(**{names[k]: sum(x) for k, x in mine.items()})
 
 
 def fine(at: Place, condition: str) -> int:
     """The number of feasible walks of the best search."""
     found = side_of(at, condition)
     return int(np.isfinite(found.errors[found.best]).sum())
-
-
-def at_least(order: str, condition: str) -> str:
-    """The least median error of an order over bandwidths, with the feasible walks there."""
-    mine = [r for r in rows("orders") if (r["case"], r["condition"]) == (order, condition)]
-    errors = [
-        float(np.median([math.inf if x == "-" else 1e-3 * float(x) for x in r["errors"].split()]))
-        for r in mine
-    ]
-    best = int(np.argmin(errors))
-    return (
-        f"{errors[best]:.2g} mrad with {mine[best]['feasible']} of {mine[best]['walks']} feasible"
-    )
 
 
 def failures() -> str:
@@ -451,14 +410,9 @@ def spread(at: Place) -> str:
     return f"{max(errors) / min(errors):.2g}"
 
 
-def controllers_at(*at: str) -> str:
-    """Names of the controllers that were searched at a place."""
-    keys = ("hardware", "gait", "tuning")
-    names = (r["controller"] for r in rows("settings") if tuple(r[k] for k in keys) == at)
-    return ", ".join(dict.fromkeys(names))
-
-
 def margin(at: Place, column: str) -> str:
     """A number of margins.csv of the best search at a place."""
     keys = ("hardware", "gait", "tuning", "controller")
-    return next(r[column] for r in rows("margins") if tuple(r[k] for k in keys) == at)
+    search = best_row(at)["search"]
+    mine = (r for r in rows("margins") if tuple(r[k] for k in keys) == at)
+    return next(r[column] for r in mine if r["search"] == search)

@@ -77,7 +77,7 @@ def study_of(
         name: {"1 ms more": later, **PLAN["conditions"]}[name] for name in t["conditions"]
     }
     beside = PLAN[f"variables_{hardware}"]
-    asked = dict(PLAN["search"])
+    asked = PLAN["search"] | PLAN["search_more"].get(f"{hardware}, {gait}, {tuning}", {})
     beyond = asked.pop("more")
     sets = {"search": (SEARCH, t["seeds"]), "choice": (CHOICE, 20), "test": (REHEARSAL, 2)}
     return {
@@ -132,13 +132,18 @@ def search_at(
             row
             | {
                 "candidates": sum(c.walked for c in choice.candidates),
-                "on search": choice.candidates[best.number].objective,
-                "on choice": best.objective,
-                "stop": choice.stop,
-                "values": json.dumps({n: float(f"{x:.8g}") for n, x in values.items()}),
+                "on search": digits(choice.candidates[best.number].objective),
+                "on choice": digits(best.objective),
+                "stop": choice.stop.replace("controller.", "").replace("hardware.encoders.", ""),
+                "values": json.dumps({n: digits(x) for n, x in values.items()}),
             }
         )
     return rows
+
+
+def digits(x: float) -> float:
+    """A number as it is stored: with fewer digits a setting misses the limit by a walk."""
+    return float(f"{x:.8g}")
 
 
 def every_row(folder: Path) -> Iterator[dict[str, str]]:
@@ -159,9 +164,8 @@ def main(out: str, *names: str) -> None:
     for at, more in questions()["more"].items():
         a, b, c = at.split(", ")
         runs[f"{a}-{b}-{c}-more"] = (a, b, c), more
-    for name, (at, more) in runs.items():
-        if names and name not in names:
-            continue
+    for name in names or runs:
+        at, more = runs[name]
         rows = search_at(Path(out), at, more, 1 if names else None)
         with open(Path(out) / f"{name}.csv", "w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)

@@ -47,7 +47,6 @@ from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.gait import Gait
@@ -175,7 +174,7 @@ def linear_twin(walker: Walker) -> Walker:
     Its motors are left out too, since `walker_loop` adds their lag to the robot. Raises InputError for a walker
     in continuous time, or one that detects touchdowns.
     """
-    if not isinstance(walker.timing, SampledTime) or walker.touchdown is not None:
+    if not walker.sampled or walker.touchdown is not None:
         raise InputError(
             f"the sampled loop of a walker was asked for, found {walker.timing} and touchdown="
             f"{walker.touchdown}; expected SampledTime(period), and None, since to notice is no linear part"
@@ -197,8 +196,7 @@ def tick_matrices(
     Raises NotFiniteError where a method has no finite derivative there, InputError for shifted walkers whose
     law does not compile, since one that branches on numbers is not linear.
     """
-    assert isinstance(twin.timing, SampledTime)
-    n, T, mode = twin.plant.n, twin.timing.period, Mode()
+    n, T, mode = twin.plant.n, twin.clock.period, Mode()
     # ticked(t, x, mode) -> x after the tick, J; it is made once, for the first point
     result, ticked = [], None
     for point in points:

@@ -25,8 +25,6 @@ the sampling frequency, as those of the margins (`specification`). Of an unstabl
 z = exp(i w T), which no walk shows.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -129,27 +127,6 @@ def gang_of_six(walker: Walker, gait: FrozenGait, spec: Specification) -> Gang:
     return Gang(read_only(w), {k: read_only(x) for k, x in sizes.items()}, loops.period)
 
 
-def cut_at_torques(walker: Walker, gait: FrozenGait, spec: Specification) -> Cut:
-    """The loops of a walker on the plant itself, with what the reference does; it raises as `gang_of_six`."""
-    twin, n, p = linear_twin(walker), walker.plant.n, walker.plant.p
-    h = own_reference(twin.controller)
-    if h is None:
-        raise InputError(
-            f"{type(twin.controller).__name__} has no field `reference`, to which the loop could respond; "
-            "expected a controller as NPDController(gait.constraint)"
-        )
-
-    def shifted(x: Array) -> Walker:
-        """The twin whose reference is shifted by x = (r, r')."""
-        return replace(twin, controller=tracking(twin.controller, Shifted(h, r=x[:p], dr=x[p:])))
-
-    pairs = [(shifted(e), shifted(-e)) for e in SHIFT * np.eye(2 * p)]
-    tick = tick_matrices(twin, gait.points, pairs)
-    loops = replace(spec.loops[:, 0], tick=tick.reading(slice(2 * n)))
-    H = np.array([h(at.t, at.q, at.v).H for at in gait.points])
-    return Cut(loops, tick.reading(slice(2 * n, None)), np.eye(p, n) - H)
-
-
 class Cut(NamedTuple):
     """Loops along one axis of phases, cut open at the torques."""
 
@@ -172,3 +149,24 @@ class Cut(NamedTuple):
         PS = y[:, np.newaxis] @ P[..., :n, :] @ S
         found = (S, np.eye(p) - S, PS, S @ by_n, PS @ by_r, S @ by_r)
         return dict(zip(GANG_UNITS, found, strict=True))
+
+
+def cut_at_torques(walker: Walker, gait: FrozenGait, spec: Specification) -> Cut:
+    """The loops of a walker on the plant itself, with what the reference does; it raises as `gang_of_six`."""
+    twin, n, p = linear_twin(walker), walker.plant.n, walker.plant.p
+    h = own_reference(twin.controller)
+    if h is None:
+        raise InputError(
+            f"{type(twin.controller).__name__} has no field `reference`, to which the loop could respond; "
+            "expected a controller as NPDController(gait.constraint)"
+        )
+
+    def shifted(x: Array) -> Walker:
+        """The twin whose reference is shifted by x = (r, r')."""
+        return replace(twin, controller=tracking(twin.controller, Shifted(h, r=x[:p], dr=x[p:])))
+
+    pairs = [(shifted(e), shifted(-e)) for e in SHIFT * np.eye(2 * p)]
+    tick = tick_matrices(twin, gait.points, pairs)
+    loops = replace(spec.loops[:, 0], tick=tick.reading(slice(2 * n)))
+    H = np.array([h(at.t, at.q, at.v).H for at in gait.points])
+    return Cut(loops, tick.reading(slice(2 * n, None)), np.eye(p, n) - H)

@@ -54,7 +54,6 @@ from biped_adrc.analysis.loops.frozen_gait import (
 from biped_adrc.analysis.loops.walker_loop import WalkerLoops
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.gait import Gait
 
@@ -161,11 +160,10 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     """
     # without its parts that have no derivative: limits, counts, noise, pushes; and without motors
     twin = linear_twin(walker)
-    assert isinstance(twin.timing, SampledTime)
     if isinstance(gait, Gait):
         gait = FrozenGait.of(walker.plant, gait, walker.nominal)
     # slow: up to this |s| a mode is the gait's own; gait.falling is sqrt(g / l)
-    T, delay, slow = twin.timing.period, twin.timing.delay, _OWN * gait.falling
+    T, delay, slow = twin.clock.period, twin.clock.delay, _OWN * gait.falling
     lag = 0.0 if walker.motors is None else walker.motors.lag
     # tick: the linearised sample instant. The new axis is that of the robots, for which the tick is the same
     tick = TickMatrices(*(x[:, np.newaxis] for x in tick_matrices(twin, gait.points)))

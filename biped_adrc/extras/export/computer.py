@@ -49,11 +49,6 @@ class Computer:
         # raises InputError where the controller has no form for sample instants
         _ = self.walker.law
 
-    @property
-    def timing(self) -> SampledTime:
-        """The walker's sampling period and delay [s]."""
-        return cast(SampledTime, self.walker.timing)
-
     @cached_property
     def robot(self) -> PlanarRobot:
         """The nominal model."""
@@ -92,7 +87,7 @@ class Computer:
         Only where the computer needs the torques on their way, for a known delay or a rate limit, does it have
         the delay and so their queue.
         """
-        time, motors = self.timing, self.walker.motors
+        time, motors = self.walker.clock, self.walker.motors
         limited = motors is not None and motors.rate_limit is not None
         if not (time.delay_known or limited):
             time = replace(time, delay=0.0)
@@ -127,7 +122,8 @@ class Computer:
         _, J = tick_derivative(self.alone, self.layout)(0.0, x, Mode())
         # held: of what the computer keeps; q and v, which stand first, are fixed
         held = J[2 * len(q) :, 2 * len(q) :]
-        return math.log(np.max(np.abs(np.linalg.eigvals(held)), initial=1.0)) / self.timing.period
+        growth = math.log(np.max(np.abs(np.linalg.eigvals(held)), initial=1.0))
+        return growth / self.walker.clock.period
 
     @cached_property
     def layout(self) -> Layout:

@@ -125,7 +125,8 @@ def _released(inputs: Inputs) -> Array:
     if fraction == 0.0:
         return at.x
     # symbol[1]: `last`, the time of the sample instant before
-    over = at.t - Scalar(at.inp.symbol[1]) >= fraction * computer.timing.period - SAME_INSTANT
+    acts = fraction * computer.walker.clock.period - SAME_INSTANT
+    over = at.t - Scalar(at.inp.symbol[1]) >= acts
     # released: x with the waiting torque in place of the one that acts, which is the last p numbers of x
     p, released = computer.robot.p, semantics.release(at.loop, at.x)
     return np.concatenate((at.x[:-p], wheres(over, released[-p:], at.x[-p:])))

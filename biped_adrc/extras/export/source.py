@@ -35,8 +35,6 @@ TAKEN = {
 ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}
 """Name of a function -> its arguments in C besides x, m and next, the state before it, the measurement, and the
 state after it: u is the torque for the motors, lost the least pivot of the matrices that are inverted."""
-ON_THE_LINE = ("queue", "waiting", "acting")
-"""Fields of the state's struct that hold torques on their way to the motors."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +137,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
         "joint_names": joints,
         "n": k.n,
         "p": k.p,
-        "period": decimal(computer.timing.period),
+        "period": decimal(walker.clock.period),
         # an index from p on stands for a torque that changes its sign (`types.relabelled`)
         "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
         "rates_read": functions_.rates,
@@ -149,12 +147,12 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
         "limits": "".join(f", {x}" for x in limits),
         "clock": (
             "at the same instant, which restarts the clock of sample instants"
-            if computer.timing.restart
+            if walker.clock.restart
             else "at the next sample instant"
         ),
         "fields": functions_.fields,
         # fields with torques on their way to the motors
-        "line": ON_THE_LINE,
+        "line": ("queue", "waiting", "acting"),
         "versions": packages(("biped-adrc", "casadi", "pin", "numpy")),
     }
 
@@ -163,13 +161,13 @@ def _about(computer: Computer) -> list[str]:
     """Lines for the comment at the top of the header: what the controller computes, and the caller's part."""
     walker, k = computer.walker, computer.held
     lines = [
-        f"Controller in sampled time, every {1e3 * computer.timing.period:g} ms: laws, gait and the nominal",
+        f"Controller in sampled time, every {1e3 * walker.clock.period:g} ms: laws, gait and the nominal",
         "model's terms, with their numbers as constants.",
     ]
     if k.sensors is not None:
         lines.append("Rates are differences of angles, filtered, and begin anew at a touchdown.")
     if k.known:
-        lines.append(f"It knows that torques act {1e3 * computer.timing.delay:g} ms late.")
+        lines.append(f"It knows that torques act {1e3 * walker.clock.delay:g} ms late.")
     if walker.touchdown is not None:
         lines.append("How a touchdown is noticed is left to the caller.")
     return lines

@@ -37,7 +37,7 @@ from biped_adrc.core.files import packaged
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Flags
 from biped_adrc.engine.kernels.compiled_run import STATUS
-from biped_adrc.hardware.sample_hold import Tail, motor_torque
+from biped_adrc.hardware.sample_hold import motor_torque
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
 from biped_adrc.scenario.dotted import flat, merged, tables
@@ -296,7 +296,6 @@ def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
     """
     (q, v, s, tail), k, p = parts(loop, x), loop.held, loop.plant.p
     assert k is not None
-    assert isinstance(tail, Tail)
     true = loop.measure(t, q, v, mode)
     if k.touchdown is not None:
         # state: the measurement; b: what the detector believes about the legs and the single support; line: the

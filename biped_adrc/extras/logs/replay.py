@@ -37,7 +37,7 @@ touchdown the nominal impact (7) resets them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -50,8 +50,8 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.files import joint_columns, write_csv
-from biped_adrc.core.shown import Shown, columns
-from biped_adrc.core.types import Array, Flags, freeze
+from biped_adrc.core.shown import Frozen, Shown, columns
+from biped_adrc.core.types import Array, Flags
 from biped_adrc.extras.logs.log_file import check_reading, read_log
 from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.hardware.sensors import Sensors
@@ -63,7 +63,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class ReplaySignals(Shown):
+class ReplaySignals(Frozen):
     """Signals of a replay: K rows as in the log, n coordinates, p joints, named by stance and swing leg.
 
     Without an observer the signals that come from estimates are NaN.
@@ -94,9 +94,6 @@ class ReplaySignals(Shown):
     """(K, p) kappa^-1 (xi^ - xi_nominal): the joint torque beyond the nominal model [N m]."""
     in_contact: Array
     """(K,), 1 within the window after a touchdown, else 0."""
-
-    def __post_init__(self) -> None:
-        freeze(self, *(f.name for f in fields(self)))
 
     @property
     def xi_contact(self) -> Array:

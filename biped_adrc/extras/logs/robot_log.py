@@ -27,7 +27,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import LONGEST_PERIOD, SAME_INSTANT, SampledTime
 from biped_adrc.core.types import Array, Flags, Indices, read_only, relabelled
-from biped_adrc.hardware.sample_hold import Tail, motor_torque
+from biped_adrc.hardware.sample_hold import motor_torque
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.recording import Walk
 
@@ -249,7 +249,6 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> tuple[float, float, Arra
     q, v, _, tail = parts(walker, arc.x[k])
     held = walker.held
     assert held is not None
-    assert isinstance(tail, Tail)
     step, other = float(arc.mode.step), 0.0
     if tail.belief is not None:
         step, other = float(tail.belief.step), tail.belief.other

@@ -28,7 +28,6 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.footstep import Footstep
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import OnLink
@@ -103,7 +102,7 @@ class PageWalk:
         if isinstance(law, Footstep) and not law.speeds:
             # the slider of the speed leaves the first step, with which the walk begins, as it is
             return cls.of(name, s.replace({"controller.speeds": [law.speed]}), scene)
-        if not isinstance(walker.timing, SampledTime):
+        if not walker.sampled:
             raise InputError(
                 f"the walk '{name}' is controlled at every instant, and that of a page at sample instants; "
                 "give a period, as hardware = 'ideal' or hardware.period = '1 ms'"
@@ -123,11 +122,6 @@ class PageWalk:
     def mode(self) -> Mode:
         """The first single support of the walk."""
         return Mode(self.scenario.run.first_step)
-
-    @property
-    def timing(self) -> SampledTime:
-        """Sampling period and delay of the walk [s]."""
-        return cast(SampledTime, self.walker.timing)
 
     @cached_property
     def names(self) -> dict[str, int]:
@@ -216,7 +210,7 @@ class PageWalk:
         """Range of delays [s] for which this variant is right: between two multiples of the period, or its own
         delay twice where that is a multiple.
         """
-        period, delay = self.timing.period, self.timing.delay
+        period, delay = self.walker.clock.period, self.walker.clock.delay
         whole, part = whole_and_part(delay, period)
         return (whole * period, (whole + 1) * period) if part > 0.0 else (delay, delay)
 
@@ -239,7 +233,7 @@ def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:
     """
     # delays 0 and within each period: see `PageWalk.delays`
     result = [PageWalk.of(name, s)]
-    period = result[0].timing.period
+    period = result[0].walker.clock.period
     for delay in (0.0, *((k + 0.5) * period for k in range(samples))) if samples else ():
         try:
             one = PageWalk.of(name, s.replace({DELAY: delay}), result[0].scene)
@@ -277,13 +271,13 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     # structures: all variants of all walks; blocks: id of a variant -> its `WebWalker`
     structures = [one for result in walks.values() for one in result]
     first = structures[0]
-    web = web_walkers([one.code for one in structures])
-    blocks = dict(zip(map(id, structures), web.walkers, strict=True))
+    code, names, walkers = web_walkers([one.code for one in structures])
+    blocks = dict(zip(map(id, structures), walkers, strict=True))
     plant = first.walker.plant
     # SPRING: stiffness and damping between mouse and point; STRUCK: code of an impact
     return {
-        "code": packed(web.code),
-        "functions": web.functions,
+        "code": packed(code),
+        "functions": names,
         "walks": {
             name: walk_numbers(result, [blocks[id(one)] for one in result])
             for name, result in walks.items()
@@ -318,7 +312,7 @@ def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any
     first, result = walk[0], walk[0].sliders()
     shown = [one._asdict() for one, _ in result.values()]
     if len(walk) > 1:
-        high, delay = max(one.delays[1] for one in walk), first.timing.delay
+        high, delay = max(one.delays[1] for one in walk), first.walker.clock.delay
         # from 0 to the longest delay of a variant [s], linear, displayed in ms, for both walks of the page
         shown.append(Slider(DELAY, 0.0, high, False, "ms", 1e3, delay, True)._asdict())
     return {
@@ -358,8 +352,8 @@ def structure_numbers(
         "pointers": web.plan.pointers.tolist(),
         "nx": web.plan.nx,
         "observe": web.observe,  # number of the function of all signals
-        "period": walk.timing.period,
-        "restart": walk.timing.restart,
+        "period": walk.walker.clock.period,
+        "restart": walk.walker.clock.restart,
         "delays": walk.delays,
         "slope": walk.walker.ground_slope,
         "limits": {"friction": known.friction, "torque": known.torque if limit is None else limit},

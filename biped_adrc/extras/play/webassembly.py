@@ -7,7 +7,7 @@ an object file of it, which a browser loads without a linker.
 A run is one block of memory (`engine.kernels.record`), which has the addresses of the walker's functions; a
 plan is the block of a run that has not begun. WebAssembly has no addresses of functions: they are called by
 their number in a table, from 1 on. So the block has such a number wherever it has an address in machine code.
-`WebWalkers.functions` lists the names in the order of these numbers, and the constant `called` of the module
+`web_walkers` gives the names in the order of these numbers, and the constant `called` of the module
 puts the functions into the table in the same order. Walkers of the same structure (equal but for the values of
 their parameters) share their functions.
 
@@ -40,28 +40,22 @@ class WebWalker(NamedTuple):
     """Number in the table of the function that computes its signals (`closed_loop.instant_signals`)."""
 
 
-class WebWalkers(NamedTuple):
-    """A WebAssembly module, and the walkers that run in it."""
+def web_walkers(
+    walkers: Sequence[CompiledWalker],
+) -> tuple[bytes, tuple[str, ...], list[WebWalker]]:
+    """Make one module for several compiled walkers on one gait: its bytes, the names of its functions in the
+    order of their numbers, from 1 on, and the walkers that run in it.
 
-    code: bytes
-    """Bytes of the module."""
-    functions: tuple[str, ...]
-    """Names of the functions in the order of their numbers, from 1 on: those of _LOOPS, then the walkers'."""
-    walkers: tuple[WebWalker, ...]
-
-
-def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
-    """Make one module for several compiled walkers on one gait.
-
-    Each has to be compiled with a reference, from which its signals take the error. Raises InputError for a
-    walker with the exponential method, whose product with matrices is no function of this form.
+    The first functions are those of _LOOPS, then come the walkers'. Each walker has to be compiled with a
+    reference, from which its signals take the error. Raises InputError for a walker with the exponential
+    method, whose product with matrices is no function of this form.
     """
     # names: text of functions -> its name; numbers: function -> its number, the first ones being the loops'
     # _LOOPS: the kernels' functions, which have the first numbers
     laws = _Laws({}, {name: k for k, name in enumerate(_LOOPS, 1)})
     modules = [_walker(one, laws) for one in walkers]
     code = web_module({name: text for text, name in laws.names.items()}, tuple(laws.numbers))
-    return WebWalkers(code, tuple(laws.numbers), tuple(modules))
+    return code, tuple(laws.numbers), modules
 
 
 class _Laws(NamedTuple):

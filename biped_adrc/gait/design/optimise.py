@@ -260,7 +260,8 @@ def optimise(biped: Biped, request: GaitRequest) -> Optimum:
         )
     for nodes in (request.nodes, 2 * request.nodes):
         finer = replace(request, nodes=nodes)
-        results = [_solution(biped, finer.on_level_ground())]
+        smooth = replace(finer, limits=replace(finer.limits, rough=0.0))
+        results = [_solution(biped, smooth)]
         if request.limits.rough:
             results.append(_on_rough_ground(biped, finer, results[0][0]))
         spent += sum(iterations for _, iterations in results)

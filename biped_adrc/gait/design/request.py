@@ -178,10 +178,6 @@ class GaitRequest(Checked, Shown):
             if not fits:
                 raise GaitError(f"no gait can be designed for {self!r}: expected {expected}")
 
-    def on_level_ground(self) -> GaitRequest:
-        """The same request without rough ground."""
-        return replace(self, limits=replace(self.limits, rough=0.0))
-
     def stages(self) -> tuple[GaitRequest, ...]:
         """Requests from an easy one to this one; the solution of each is the first guess for the next.
 

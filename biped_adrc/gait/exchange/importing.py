@@ -100,7 +100,6 @@ def _text(value: object) -> object:
 
 _FORMAT = "biped_adrc exchanged gait 1"
 """Entry `format` of a gait file written here; files of other programs need none."""
-_KEYS = tuple(f.name for f in fields(GaitFile))  # names of the entries that are read
 _SHOWN = 30
 """Most names of entries that an error lists."""
 
@@ -190,7 +189,7 @@ def read_record(
             )
         if samples:
             return Samples(entries["t"], entries["q"], entries.get("v")), convention_, source
-        record = {key: entries[key] for key in _KEYS if key in entries}
+        record = {f.name: entries[f.name] for f in fields(GaitFile) if f.name in entries}
         for key in ("coefficients", "outputs"):
             if isinstance(record.get(key), np.ndarray):
                 record[key] = np.atleast_2d(record[key])  # one row, squeezed by loadmat
@@ -201,8 +200,6 @@ def read_record(
         return GaitFile(**record), str(convention_), source
 
 
-RUN_FORMAT = "biped_adrc exchanged run 1"
-"""Entry `format` of a walk as a .mat file."""
 RUN_UNITS = {
     name: unit
     for unit, names in {
@@ -228,7 +225,7 @@ def export_run(columns: Mapping[str, Array], path: Path | str, note: str = "") -
     columns: in this paper's coordinates and in the units RUN_UNITS. note: free text. Raises InputError for
     another suffix, and OutputError.
     """
-    about = {"format": RUN_FORMAT, "convention": "paper", "note": note}
+    about = {"format": "biped_adrc exchanged run 1", "convention": "paper", "note": note}
     arrays = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
     units = {name: RUN_UNITS[name] for name in columns}
     write_mat(output_path(path, (".mat",)), {**about, **arrays}, units)

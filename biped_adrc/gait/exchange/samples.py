@@ -34,7 +34,7 @@ from scipy.optimize import newton
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import BipedError, GaitError, InputError
 from biped_adrc.core.files import CsvTable, reading
-from biped_adrc.core.shown import as_line
+from biped_adrc.core.shown import shown
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
@@ -60,6 +60,7 @@ CLEARLY = 3.0
 """A cause is named beside the best one if its distance is at most so many times as large."""
 
 
+@shown
 class Samples(NamedTuple):
     """Samples of one step: t (K,) [s], q (K, n) [rad], and rates v (K, n) [rad/s] or None.
 
@@ -70,9 +71,6 @@ class Samples(NamedTuple):
     t: Array
     q: Array
     v: Array | None = None
-
-    def __repr__(self) -> str:
-        return as_line(self)
 
 
 def gait_of_samples(

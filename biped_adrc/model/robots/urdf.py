@@ -21,13 +21,11 @@ not, and `evened` takes the mean of legs that nearly are. Twins are paired along
 from both ends to its middle. The feet are a pair (link of the stance foot, link of the swing foot).
 """
 
-from __future__ import annotations
-
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -81,11 +79,11 @@ class Inertial:
     inertia: tuple[float, float, float, float, float, float]
     """Moments about the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
 
-    def scaled(self, kind: str, factor: float) -> Inertial:
+    def scaled(self, kind: str, factor: float) -> Self:
         """A copy with the field `kind`, "mass", "com" or "inertia", multiplied by a factor [1]."""
         old = getattr(self, kind)
-        new = factor * old if kind == "mass" else tuple(factor * x for x in old)
-        return Inertial(**(vars(self) | {kind: new}))
+        new: Any = factor * old if kind == "mass" else tuple(factor * x for x in old)
+        return replace(self, **{kind: new})
 
 
 @dataclass(frozen=True)
@@ -135,7 +133,7 @@ class Joint:
     """<limit lower upper> [rad]; infinite for a joint that turns all the way round, or slides."""
 
     @property
-    def mirrored(self) -> Joint:
+    def mirrored(self) -> Self:
         """The same joint with its angle counted the other way: axis and range are negated."""
         (x, y, z), (low, high) = self.axis, self.range
         return replace(self, axis=(-x, -y, -z), range=(-high, -low))
@@ -182,7 +180,7 @@ class Tree(Shown):
         """Names of link `top` and all links below it, in the file's order; [] for the root of the tree."""
         return [link for link in self.links if self.path_below(link, top) is not None]
 
-    def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
+    def with_inertials(self, inertials: Mapping[str, Inertial]) -> Self:
         """A copy of the tree in which the links named in `inertials` have these mass properties. Raises
         ModelError for those of no body.
         """

@@ -18,6 +18,7 @@ import random
 import re
 import uuid
 import warnings
+from collections import defaultdict
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
@@ -257,8 +258,11 @@ class MemoryWindow:
         """The commands in base64."""
         self.viewer = meshcat.Visualizer(window=self)
         """Meshcat's tree of nodes."""
-        self._names: dict[bytes, bytes] = {}
-        self._source = random.Random(seed)
+        source = random.Random(seed)
+        # a name of Meshcat's -> the one from the seeded source that replaces it at every use
+        self._names = defaultdict[bytes, bytes](
+            lambda: str(uuid.UUID(int=source.getrandbits(128), version=4)).encode()
+        )
 
     def send(self, command: Any) -> None:
         """Store a command of Meshcat, packed as its viewer expects it; `lower` is the command's own method that
@@ -267,12 +271,5 @@ class MemoryWindow:
         Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the order of
         their first use, of the same length, so that the same walk gives the same bytes on any machine.
         """
-        packed = _UUID.sub(lambda found: self._named(found[0]), umsgpack.packb(command.lower()))
+        packed = _UUID.sub(lambda found: self._names[found[0]], umsgpack.packb(command.lower()))
         self.packed.append(base64.b64encode(packed).decode("ascii"))
-
-    def _named(self, name: bytes) -> bytes:
-        """The name from the seeded source that replaces this name of Meshcat's, the same one at every use."""
-        if name not in self._names:
-            number = uuid.UUID(int=self._source.getrandbits(128), version=4)
-            self._names[name] = str(number).encode()
-        return self._names[name]

@@ -33,8 +33,6 @@ BEFORE, AFTER = 0.3, 0.6
 """Time shown before and after a push [s]."""
 EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
 """Time shown before and after either edge of a push [s]."""
-EDGES = ("push begins", "push ends")
-"""Titles of the columns of the two edges."""
 
 _MARKERS = "ox^s"
 """Marks of the points, one for each method of computing multipliers."""
@@ -55,7 +53,6 @@ def tracking_figure(
     p = signals.q_d.shape[1]  # number of joints with motors
     # two panels of angles: of the five-link robot RABBIT hips and knees
     halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
-    angles = [partial(over_time.joint_tracking, s=signals, joints=x, push=push) for x in halves]
     below: list[Panel] = [
         partial(over_time.torques, s=signals, limit=torque_limit, push=push),
         partial(over_time.tracking_errors, s=signals, push=push),
@@ -63,8 +60,10 @@ def tracking_figure(
     with new_figure(10.0, 7.2, _titled(title, signals, push)) as figure:
         # row 0 of the grid for the angles, 1 and 2 for `below`; _zoom: the time axis around the push
         spec = figure.add_gridspec(3, 4)
-        for place, draw in zip(_halves(spec, 0, len(halves)), angles, strict=True):
-            _zoom(_column(figure, [place], [draw]), signals, push)
+        width = 4 // len(halves)  # of a panel, in columns of the grid
+        for k, joints in enumerate(halves):
+            axes = figure.add_subplot(spec[0, k * width : (k + 1) * width])
+            _zoom([over_time.joint_tracking(axes, signals, joints, push)], signals, push)
         _around_and_edges(figure, spec, (1, 2), below, signals, push)
         return figure
 
@@ -82,13 +81,6 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
         joints.setdefault(f"{peaks[i]:.3g} N m", []).append(f"$q_{i + 1}$")
     words = "; ".join(f"{torque} on {', '.join(names)}" for torque, names in joints.items())
     return f"{title}: {words}" if words else title
-
-
-def _halves(spec: Any, row: int, count: int = 2) -> list[SubplotSpec]:
-    """Places in a row of the grid `spec` of four columns: for one panel that fills it, or for two that share
-    it.
-    """
-    return [spec[row, :]] if count == 1 else [spec[row, :2], spec[row, 2:]]
 
 
 def _column(
@@ -127,13 +119,13 @@ def _around_and_edges(
     around, *edges = (_column(figure, each, draws) for each in cells)
     _zoom(around, s, push)
     at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)  # a tick every 2 ms, the end included
-    for column, edge, name in zip(edges, push or (), EDGES, strict=False):
+    for column, edge, name in zip(edges, push or (), ("begins", "ends"), strict=False):
         _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
         for axes in column:
             axes.legend().remove()
             axes.set_xticks(edge + at, [f"{1e3 * t:g}" for t in at])
             axes.set_ylabel("")
-        column[0].set_title(name, loc="left")
+        column[0].set_title(f"push {name}", loc="left")
         column[-1].set_xlabel("after the edge [ms]")
     return [around, *edges]
 
@@ -326,7 +318,7 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
         for (axes,) in edges:  # the same scale in all three panels
             axes.set_ylim(around.get_ylim())
         # two panels in row 1 of the grid
-        sizes, motors = (figure.add_subplot(place) for place in _halves(spec, 1))
+        sizes, motors = figure.add_subplot(spec[1, :2]), figure.add_subplot(spec[1, 2:])
         over_time.error_sizes(sizes, walks)
         over_time.torque_sizes(motors, walks)
         return figure

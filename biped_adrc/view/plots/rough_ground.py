@@ -34,21 +34,18 @@ def rough_ground_figure(ground: RoughGround, steps: Iterable[tuple[float, float]
         top = 1.3 * max(y / level for y in ground.interval(min(1.5 * reach.height, m.heights[-1])))
         axes.fill_between(h, low, np.minimum(high, top), color=DOMAIN, lw=0, label="walked")
         axes.plot(h, m.steady / level, color=PALETTE[0], label="y*, the same h in each step")
-        for y in ground.interval(reach.height):
-            axes.axhline(y / level, color=GREY, ls=DASHES[1], lw=0.8)
-        worst = np.array(worst_steps(ground, reach.height))
-        axes.plot(
-            1e3 * worst[:, 0],
-            worst[:, 1] / level,
-            "o",
-            color=PALETTE[1],
-            ms=4,
-            label="worst ground",
-        )
-        if len(dots := np.array([*steps]).reshape(-1, 2)):
-            axes.plot(1e3 * dots[:, 0], dots[:, 1] / level, ".", color="black", ms=3, label="walks")
-        for x in (-reach.height, reach.height):
-            axes.axvline(1e3 * x, color=GREY, ls=":", lw=0.8)
+        for bound in ground.interval(reach.height):
+            axes.axhline(bound / level, color=GREY, ls=DASHES[1], lw=0.8)
+        worst = worst_steps(ground, reach.height)
+        for points, mark, colour, size, name in (
+            (worst, "o", PALETTE[1], 4, "worst ground"),
+            (list(steps), ".", "black", 3, "walks"),
+        ):
+            x, y = np.array(points).reshape(-1, 2).T
+            if len(y):
+                axes.plot(1e3 * x, y / level, mark, color=colour, ms=size, label=name)
+        for end in (-reach.height, reach.height):
+            axes.axvline(1e3 * end, color=GREY, ls=":", lw=0.8)
         axes.set(xlim=(-2e3 * reach.height, 2e3 * reach.height), ylim=(0.0, top))
         label(axes, "height of a step h [mm]", "y over y on level ground", f"H = {reach}")
         figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)

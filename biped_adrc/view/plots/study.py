@@ -40,7 +40,7 @@ def dots_figure(
     numbers: (row, series) -> (number, low, high). title: of the axis, with its unit. scale: "log" or "linear".
     reference: number at which a line is drawn.
     """
-    rows, series = _names(numbers)
+    rows, series = (list(dict.fromkeys(pair[i] for pair in numbers)) for i in (0, 1))
     # so that the marks of the series in a row do not cover one another
     offsets = np.linspace(-0.22, 0.22, len(series)) if len(series) > 1 else [0.0]
     with new_figure(6.5, 1.1 + 0.36 * len(rows)) as figure:
@@ -202,8 +202,3 @@ def _ticks(axes: Axes, x: Sequence[str], y: Sequence[str]) -> None:
     for set_ticks, names, rotation in ((axes.set_xticks, x, 45), (axes.set_yticks, y, 0)):
         places = range(0, len(names), -(-len(names) // 12))  # -(-a // b) is a / b rounded up
         set_ticks(list(places), [names[k] for k in places], rotation=rotation)
-
-
-def _names(found: Mapping[tuple[str, str], Any]) -> tuple[list[str], list[str]]:
-    """Names of rows and of columns, each in the order of first appearance, from keys (row, column)."""
-    return list(dict.fromkeys(a for a, _ in found)), list(dict.fromkeys(b for _, b in found))
