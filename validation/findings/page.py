@@ -251,6 +251,8 @@ def fields() -> dict[str, Any]:
             npd=fine((*rabbit, "NPD"), PUSH),
             m1hip=fine((*rabbit, "m = 1"), "hip, 2 N"),
             npdhip=fine((*rabbit, "NPD"), "hip, 2 N"),
+            hip=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), "hip, 2 N", "share"),
+            heavy=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), "masses x 1.5"),
         ),
         "limit": Names(
             npd=fine((*rabbit, "NPD"), comparison.LATER),
@@ -260,17 +262,18 @@ def fields() -> dict[str, Any]:
         "failed": failures(),
         "stop": stops(),
         "exact": Names(
-            b0m=ratio_in_words((*exact, "ADRC b0"), (*exact, "m = 1")),
-            st=ratio_in_words((*exact, "super twisting"), (*exact, "NPD")),
+            b0m=compared((*exact, "ADRC b0"), (*exact, "m = 1")),
+            st=compared((*exact, "super twisting"), (*exact, "NPD")),
         ),
         "ground": Names(
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
-            npd=ratio_in_words((*rough, "m = 1"), (*rough, "NPD")),
-            npd_value=ratio_in_words((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
-            pid=ratio_in_words((*rough, "m = 1"), (*rough, "PID")),
+            npd=compared((*rough, "m = 1"), (*rough, "NPD")),
+            npd_value=compared((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
+            pid=compared((*rough, "m = 1"), (*rough, "PID")),
+            b0=compared((*rough, "ADRC b0"), (*rough, "m = 1")),
         ),
         "margin": Names(
             b0=margin((*exact, "ADRC b0"), "disk_margin"),
@@ -280,13 +283,13 @@ def fields() -> dict[str, Any]:
         "gait": Names(
             rough20=feasible(ground["rough"], "20 mm"),
             level20=feasible(ground["v0.6"], "20 mm"),
+            b0=fine((*rough, "ADRC b0"), "10 mm"),
+            m1=fine((*rough, "m = 1"), "10 mm"),
         ),
         "load": Names(
-            adrc=lighter(rabbit),
-            npd=fine((*rabbit, "NPD"), "masses x 0.7"),
-            adrc_rough=lighter(rough),
-            npd_rough=fine((*rough, "NPD"), "masses x 0.7"),
-            ground=feasible(ground["v0.6"], "masses x 0.7"),
+            light=by_name(rabbit, "masses x 0.7"),
+            light_rough=by_name(rough, "masses x 0.7"),
+            light_ground=by_name(ground["v0.6"][:3], "masses x 0.7"),
         ),
         "soft": of_soft(),
         "hip": Names(
@@ -330,10 +333,10 @@ def micro(at: Place) -> str:
     return f"{1e6 * statistics.alone(side_of(at, PUSH), 'error', DRAWN).value:.2g} µrad"
 
 
-def ratio_in_words(one: Place, other: Place) -> str:
-    """Ratio of errors under the push, with its interval."""
-    found = statistics.compare(side_of(one, PUSH), side_of(other, PUSH), "error", DRAWN)
-    return in_words(found)
+def compared(one: Place, other: Place, condition: str = PUSH, measure: str = "error") -> str:
+    """Ratio of errors, or difference of shares, with its interval."""
+    sides = side_of(one, condition), side_of(other, condition)
+    return in_words(statistics.compare(*sides, measure, DRAWN))
 
 
 def best_row(at: Place) -> dict[str, str]:
@@ -357,24 +360,40 @@ def stops() -> Names:
     untuned = [r["tuning"] for r in best if r["stop"].startswith("not tuned")]
     tunings = [r["tuning"] for r in best]
     words = f"{untuned.count('ground')} of {tunings.count('ground')}"
-    sides = (tuple(q[k]) for q in statistics.questions()["question"] for k in ("one", "other"))
+    questions = statistics.questions()["question"]
+    sides = (tuple(q[k]) for q in questions for k in ("one", "other"))
     asked = {at: best_row(at)["stop"].partition(";")[0] for at in sides}
     some = [f"{at[-1]} ({x})" for at, x in asked.items() if x.startswith("not tuned")]
     sides_in_words = ", ".join(dict.fromkeys(some)).replace("not tuned: ", "")
+    one, four = (questions[i] for i in (0, 3))
     return Names(
-        count=len(every), limit=limit, untuned=len(untuned), ground=words, asked=sides_in_words
+        count=len(every),
+        limit=limit,
+        untuned=len(untuned),
+        ground=words,
+        asked=sides_in_words,
+        gaining=sum(float(x.rstrip("%")) >= 2.0 for x in map(gained, best)),
+        npd=gained(best_row(tuple(one["other"]))),
+        m1=gained(best_row(tuple(one["one"]))),
+        b0=gained(best_row(tuple(four["one"]))),
     )
 
 
-def lighter(at: tuple[str, str, str]) -> str:
-    """Feasible walks of the ADRC laws at a place with all masses times 0.7."""
-    laws = ("ADRC b0", "assisted, m = 1", "cascade", "m = 1")
-    return ", ".join(str(fine((*at, c), "masses x 0.7")) for c in laws)
+def gained(row: dict[str, str]) -> str:
+    """What the last doubling of a search gained."""
+    return row["stop"].rpartition("gained ")[2]
+
+
+def by_name(at: tuple[str, str, str], condition: str) -> str:
+    """Feasible walks of the best search of each controller at a place, such as "PD 8, NPD 5"."""
+    found = {c.removeprefix("ADRC "): fine((*at, c), condition) for c in PLAN["controllers"]}
+    return ", ".join(f"{c.removesuffix(', m = 1')} {n}" for c, n in found.items())
 
 
 def of_soft() -> Names:
     """Feasible walks on MuJoCo's ground, level and pushed, by controller."""
-    names = {"m = 1": "m1", "assisted, m = 1": "assisted", "NPD": "npd"}
+    names = {"m = 1": "m1", "assisted, m = 1": "assisted", "ADRC b0": "b0"}
+    names |= {"cascade": "cascade", "NPD": "npd"}
     hard = [r for r in rows("comparison_soft") if r["condition"] != "trunk +30 %"]
     mine = {k: [int(r["feasible"]) for r in hard if r["controller"] == k] for k in names}
     return Names(**{names[k]: sum(x) for k, x in mine.items()})
