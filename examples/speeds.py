@@ -7,7 +7,7 @@ import biped_adrc as ba
 biped = ba.Biped.load("rabbit")
 gait = ba.load_gait("v0.6", biped)
 random, feasible = np.random.default_rng(18000), 0
-COUNT = 10  # 100 for the number in docs/guide/footstep.md
+COUNT = 10  # 200 for the number in docs/guide/footstep.md
 for _ in range(COUNT):
     up = np.sort(random.uniform(0.4, 1.0, 8))
     down = np.sort(random.uniform(0.4, 1.0, 9))[::-1]
