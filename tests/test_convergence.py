@@ -86,7 +86,7 @@ def test_two_steps_have_to_agree(half, holds):
     ("half", "word"),
     [
         ((1.001e-3, "COMPLETED", 2), "rad (1.001e-03 at half the step)"),
-        ((2e-3, "COMPLETED", 2), "the step decides it, shorten run.h"),
+        ((2e-3, "COMPLETED", 2), "the step decides it; shorten it"),
         ((1e-3, "FELL", 1), "the walk ends as FELL after 1 impacts"),
     ],
 )

@@ -160,6 +160,35 @@ def test_a_controller_that_keeps_its_state_in_itself_is_refused(engine, where, b
         ba.walk(ba.Walker(biped, controller, timing=TIMINGS["ticks"]), gait, 1, engine=engine)
 
 
+class Counts(ba.Controller):
+    """Counts its calls in itself; the count acts from call 50 on alone."""
+
+    calls = 0
+
+    def __init__(self):
+        self.calls = 0
+
+    def output(self, s, m):
+        self.calls += 1
+        return np.full(4, float(self.calls > 50))
+
+
+class Integrates(Counts):
+    """Keeps the integral of an angle in itself."""
+
+    def output(self, s, m):
+        self.calls = self.calls + m.q[0] - 0.2
+        return np.full(4, self.calls)
+
+
+@pytest.mark.parametrize("kind", [Counts, Integrates])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_class_that_is_not_frozen_and_changes_itself_is_refused(engine, kind, biped, gait):
+    said = r"changed the object; expected no memory in the object: write @dataclass\(frozen=True\)"
+    with pytest.raises(InputError, match=said):
+        ba.walk(ba.Walker(biped, kind(), timing=TIMINGS["ticks"]), gait, 1, engine=engine)
+
+
 @dataclass(frozen=True)
 class EndsAtTenMs(ba.Controller):
     K: float = 1.0

@@ -63,7 +63,7 @@ def error_text(end: WalkEnd, half: WalkEnd) -> str:
     text = f"{errors.value:.3e} rad ({errors.at_half:.3e} at half the step)"
     if end[1:] != half[1:]:
         ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
-        return f"{text}; {ends}: shorten run.h"
+        return f"{text}; {ends}: shorten the step, as --set run.h=2e-4"
     if errors.converged(PEAK_RESOLUTION) or max(errors) < NEGLIGIBLE:
         return text
-    return f"{text}: the step decides it, shorten run.h"
+    return f"{text}: the step decides it; shorten it, as --set run.h=2e-4"

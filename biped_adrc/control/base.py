@@ -248,6 +248,7 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     result twice, as machine code keeps nothing in an object.
     """
     own, output = has_own_class(controller), getattr(controller, "measured_output", None)
+    kept = dict(vars(controller))
     if own and output:  # an observer's estimates have the shapes of what it measures
         part: Any = vars(controller)["observer"]
         returned_tree(part.estimate(s), Layout.of(output(m)), part, "estimate", finite=False)
@@ -262,18 +263,19 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
         # shapes alone: a state that is not finite is reported where the walk meets it
         first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
     # other: any measurement that differs from m
-    calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
+    calls, other = {"output": (m,), **calls}, m._replace(q=m.q + 1e-3, v=m.v + 1e-3)
     for name, arguments in calls.items():
-        # a call at another rate, which a memory in the object would keep; [1:] leaves out m
+        # a call at other angles and rates, which a memory in the object would keep; [1:] leaves out m
         getattr(controller, name)(s, other, *arguments[1:])
         again = getattr(controller, name)(s, *arguments)
         # a leaf may be a list
         again = returned_tree(again, None, controller, name, finite=False)
-        if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
+        same = all(vars(controller)[k] is x for k, x in kept.items())
+        if not (same and np.array_equal(flatten(first[name]), flatten(again), equal_nan=True)):
             raise InputError(
                 f"{spoken(controller)}.{name}{line_of(controller, name)} gave another result when asked again "
-                "at the same instant; expected no memory in the object: return a state from initial_state, and "
-                "flow or predict"
+                "at the same instant, or changed the object; expected no memory in the object: write "
+                "@dataclass(frozen=True), and return a state from initial_state, and flow or predict"
             )
 
 

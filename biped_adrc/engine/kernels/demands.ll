@@ -1,4 +1,4 @@
-; sources a1c3ce2fa576fcf7c5e1b98c375e2950, text 68e4f776bafcff8e02c2114e98859b55
+; sources 457fd958418ffa588e295018f247f416, text 68e4f776bafcff8e02c2114e98859b55
 
 
 @_ZN08NumbaEnv18biped_adrc_kernels5edgesB4v121B56c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAg6cJqBrMeIZJFEGM0QQAE10float64_2ax8int64_2axx8int64_2a = weak local_unnamed_addr global ptr null
