@@ -129,7 +129,7 @@ def test_the_numbers_of_the_readme_are_those_of_the_page():
     assert f"leaves **{page.in_words(page.answers()[0][1])}** of NPD's tracking error" in words
     at = ("rabbit", "v0.6", "tracking")
     adrc, npd = (page.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
-    assert f"Feasible are {adrc} of 20 walks, under NPD {npd}." in words
+    assert f"Under ADRC {adrc} of 20 walks are feasible, under NPD {npd}." in words
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
