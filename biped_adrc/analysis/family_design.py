@@ -242,9 +242,9 @@ class TwoSteps:
         )
         return np.array((self.delta2, W_first, J_first, *self.slope, W, J))
 
-    def borne(self, y: float, limits: KnownLimits) -> bool:
-        """Whether ground and motors bear the second step from its decision on, where sigma^2 is y
-        [kg^2 m^4/s^2].
+    def keeps(self, y: float, limits: KnownLimits) -> bool:
+        """Whether the second step keeps the limits of friction and torque from its decision on, where sigma^2
+        is y [kg^2 m^4/s^2].
         """
         span = self.last.constraint.theta_minus - self.last.constraint.theta_plus
         try:
@@ -258,8 +258,8 @@ class TwoSteps:
 
 
 def slowest(biped: Biped, family: GaitFamily, cycles: Sequence[tuple[float, ...]]) -> PolynomialMap:
-    """`StepMap.slowest`: above _SHARE of the way to the least speed that a step bears after the periodic walks
-    `cycles`, at all of them.
+    """`StepMap.slowest`, fitted to the periodic walks `cycles`: at each of them it lies above the speed that is
+    _SHARE of the way from v to the least one (`_least`).
     """
     found = [(v, L, v + _SHARE * (_least(biped, family, v, L, y) - v)) for v, L, _, y in cycles]
     *mu, end = np.transpose(found)
@@ -267,19 +267,21 @@ def slowest(biped: Biped, family: GaitFamily, cycles: Sequence[tuple[float, ...]
 
 
 def _least(biped: Biped, family: GaitFamily, v: float, L: float, y: float) -> float:
-    """The least speed [m/s] of a member on which a step may end that begins on the member v [m/s], between
-    periodic steps of length L [m], by bisection; v where that itself is not borne. y: sigma^2 at its decision.
+    """The least speed [m/s] of a member on which a step that begins on the member v [m/s] may end, within the
+    robot's limits, between periodic steps of length L [m]. y: sigma^2 at its decision [kg^2 m^4/s^2].
+
+    It is found by bisection between the slowest member and v, and is v where that itself misses a limit.
     """
     limits = Limits().of(biped.description)
-    low, there = family.low[0], v
-    tried = low
+    low, high = family.low[0], v
+    end = low
     for _ in range(_HALVED):
-        if TwoSteps.of(biped, family, v, L, L, tried, L).borne(y, limits):
-            there = tried
+        if TwoSteps.of(biped, family, v, L, L, end, L).keeps(y, limits):
+            high = end
         else:
-            low = tried
-        tried = 0.5 * (low + there)
-    return there
+            low = end
+        end = 0.5 * (low + high)
+    return high
 
 
 def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:

@@ -141,7 +141,7 @@ def returned_tree(
         raise InputError(f"{begin} {one}, expected {other} as at the start")
     layouts = (None,) * len(found) if layout is None else layout.parts
     each = zip(found, layouts, strict=True)
-    # _or_none: checks a part, which may also be None; _like: a tuple of the same class as `found`
+    # _or_none: checks a part, which may also be None
     return of_kind(type(found), [_or_none(x, y, part, method, finite) for x, y in each])
 
 

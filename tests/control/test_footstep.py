@@ -265,7 +265,7 @@ def test_a_step_may_end_where_ground_and_motors_bear_it(biped, name):
         assert family.low[0] + 0.25 < least < v
         y = family.steps.cycle_square(v, L)
         ends = (v, least, least - 0.25)
-        borne = [TwoSteps.of(biped, family, v, L, L, x, L).borne(y, limits) for x in ends]
+        borne = [TwoSteps.of(biped, family, v, L, L, x, L).keeps(y, limits) for x in ends]
         assert borne == [True, True, False]
 
 
