@@ -28,6 +28,11 @@ MOST_WORKERS = 1024
 KEPT = 3 * 2**23
 """Number of bytes that a worker allocates and frees at first: glibc then keeps twice as many of the bytes that
 are freed later, so that a chunk of walks need not ask the system for its pages anew."""
+NO_GUARD = (
+    "no worker process could start: workers import the script that starts them, so that it has to do so under "
+    "if __name__ == '__main__':"
+)
+"""What a user reads where workers end before their first task."""
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: new interpreters import nothing from the working directory."""
 
@@ -58,13 +63,14 @@ def cores() -> int:
 def processes(count: int | None, preload: Sequence[str]) -> ProcessPoolExecutor:
     """Start `count` worker processes, one per core if None, which share the modules `preload`.
 
-    Raises InputError for less than 1 or more than `MOST_WORKERS`, and in a script without a main guard.
+    Raises InputError for less than 1 or more than `MOST_WORKERS`.
     """
     if count is not None and not 1 <= count <= MOST_WORKERS:
         raise InputError(f"{count} workers were asked for, expected 1 to {MOST_WORKERS}")
-    # this process is itself a worker, which is importing the script that starts workers
+    # this process is itself a worker, which is importing the script that starts workers: it ends without a
+    # word, and the process that started it says why (`NO_GUARD`)
     if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise InputError("workers import this script: start them under if __name__ == '__main__':")
+        raise SystemExit
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(preload))
     # the server and its forks inherit this: they import nothing from the working directory

@@ -45,6 +45,8 @@ MARKS = {"application_id": 0x62614453, "user_version": 1}
 """Two numbers that SQLite keeps: the mark of a results file among databases, and the form of its tables."""
 RESULTS = "results.sqlite"
 """Name of the file in the folder of a study."""
+_MORE = "search.doublings"
+"""A search goes on where this alone is another number, a larger one."""
 _TABLES = [
     "CREATE TABLE study (name TEXT, hash TEXT, study TEXT, versions TEXT)",
     "CREATE TABLE walks (place INTEGER PRIMARY KEY, at TEXT, record TEXT, row TEXT, status TEXT, sum TEXT)",
@@ -141,8 +143,9 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
 
 
 def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:
-    """Write the tables and the study into an empty file; check those of any other file. Returns what is wrong
-    with it, as the rest of a sentence that begins with its name; an empty text if nothing is.
+    """Write the tables and the study into an empty file, and the study over that of a search with fewer
+    doublings; check those of any other file. Returns what is wrong with it, as the rest of a sentence that
+    begins with its name; an empty text if nothing is.
     """
     # mark of results files, and form of their tables: 0 and 0 in a new file
     (mark,), (form,) = (db.execute(f"PRAGMA {x}").fetchone() for x in MARKS)
@@ -161,12 +164,19 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
     if tables != _TABLES:
         return f"has other tables than results have, or damaged ones: {tables}"
     key, old, before = db.execute("SELECT hash, study, versions FROM study").fetchone()
-    if key != study.hash:
-        there, here = (flat(json.loads(text)) for text in (old, study.model_dump_json()))
-        why = differences(there, here) or "its values are the same, and its hash is not theirs"
-        return f"holds the rows of the study '{there['name']}', another one: {why}"
+    text = study.model_dump_json()
+    there, here = (flat(json.loads(x)) for x in (old, text))
     # empty where all are the same, and then so is the result
     other = differences(json.loads(before), versions)
+    more = {**there, _MORE: here.get(_MORE)} == here and here[_MORE] > there[_MORE]
+    if key != study.hash and not (more and not other):
+        why = differences(there, here) or "its values are the same, and its hash is not theirs"
+        return f"holds the rows of the study '{there['name']}', another one: {why}"
+    if more and not other:
+        # its candidates are the first ones of this search, which chooses and tests anew
+        with db:
+            db.execute("DELETE FROM walks WHERE json_extract(at, '$.set') <> 'search'")
+            db.execute("UPDATE study SET hash = ?, study = ?", (study.hash, text))
     return other and f"was made with other versions, and numbers may differ: {other}"
 
 

@@ -16,13 +16,14 @@ from __future__ import annotations
 import itertools
 import json
 import math
+import os
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from concurrent import futures
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from biped_adrc.core.errors import SimulationError
-from biped_adrc.core.processes import cores, end_all, processes
+from biped_adrc.core.processes import NO_GUARD, cores, end_all, processes
 from biped_adrc.core.registry import FOLDERS
 from biped_adrc.studies.build import CRASHED
 from biped_adrc.studies.results import Store
@@ -76,12 +77,15 @@ class Crew:
             end_all(self.executor)
 
     def start(self) -> None:
-        """Set `executor`: the user's own, or a new pool of processes."""
+        """Set `executor`: the user's own, or a new pool of processes; and `first`, its first task, of which
+        `renew` asks whether a worker could start.
+        """
         if isinstance(self.workers, futures.Executor):
             self.executor: futures.Executor = self.workers
         else:
             # _PRELOADED: modules that are imported before the processes are forked
             self.executor = processes(self.workers, _PRELOADED)
+            self.first = self.executor.submit(os.getpid)
 
     @property
     def count(self) -> int:
@@ -93,10 +97,12 @@ class Crew:
 
     def renew(self) -> None:
         """Start another pool in place of one of which a process died. Raises WorkersError for an executor of
-        the user's.
+        the user's, and where no worker could start.
         """
         if self.executor is self.workers:
             raise WorkersError("a worker of the executor died, which the study cannot start anew")
+        if isinstance(self.first.exception(), futures.BrokenExecutor):
+            raise WorkersError(NO_GUARD)
         end_all(self.executor)
         self.start()
 

@@ -132,7 +132,7 @@ class Search(Section):
     """Candidates of a case that are walked on the first set, for each variable that has an effect in it."""
     doublings: int = Field(default=0, ge=0, le=8)
     """Most times that they are doubled, for all cases, while that gains ENOUGH in one of them or one has a
-    variable at an end of its range."""
+    variable at an end of its range. With more of them a study goes on in the folder of its results."""
     generation: int = Field(ge=1)
     """Candidates that are proposed together, without knowing of each other's walks."""
     finalists: int = Field(default=5, ge=1)

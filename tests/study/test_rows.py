@@ -100,6 +100,17 @@ def test_workers_that_all_die_end_the_study(tmp_path, monkeypatch):
         ba.study(study, tmp_path, 1, function=plants.rows)
 
 
+def test_a_script_without_a_main_guard_gets_one_sentence(tmp_path):
+    """Workers import the script, which starts a study again: nothing but the error that says so, and no row."""
+    text = "import biped_adrc as ba\nba.study({'name': 'one', 'seeds': 2}, 'out', 1)\n"
+    (tmp_path / "script.py").write_text(text)
+    command = [sys.executable, "script.py"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 1
+    assert done.stderr.count("Traceback") == 1
+    assert "under if __name__ == '__main__':" in done.stderr.splitlines()[-1]
+
+
 def test_a_row_that_raises_spoils_no_other(tmp_path, expected):
     """Row 105 raises: it is RAISED with the error's text, all others are as expected, and the pool of threads
     still works.

@@ -114,6 +114,32 @@ def test_all_cases_go_on_while_one_gains():
     assert counts["wide"] == counts["narrow"] >= alone["narrow"]
 
 
+def test_a_search_goes_on_with_more_doublings(tmp_path):
+    """With one doubling a folder of none is continued: rows and choice are those of a search that had one from
+    the beginning, and the candidates that were walked before are not walked again. With fewer it is refused.
+    """
+    counts = []
+
+    def counted(asked):
+        counts.append(len(asked))
+        return plants.costs(asked)
+
+    def carried(doublings, name):
+        counts.clear()
+        with ThreadPoolExecutor(1) as pool:
+            tables = plants.tables(budget=10, doublings=doublings)
+            found = ba.study(tables, tmp_path / name, pool, function=counted)
+        return list(found.results()), found.choices, sum(counts)
+
+    assert carried(0, "one")[2] > 40
+    *again, few = carried(1, "one")
+    *whole, every = carried(1, "other")
+    assert again == whole
+    assert every - few == 40
+    with pytest.raises(InputError, match=r"search.doublings 1 there, 0 here"):
+        carried(0, "one")
+
+
 def test_equal_cases_are_searches_with_other_seeds(tmp_path):
     """Two cases of the same values have other candidates: the second one's sampler has the seed after."""
     tables = plants.tables(budget=3, generation=4)

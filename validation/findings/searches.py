@@ -33,6 +33,7 @@ COLUMNS = (
     "controller",
     "search",
     "candidates",
+    "before",
     "on search",
     "on choice",
     "stop",
@@ -127,12 +128,15 @@ def search_at(
             rows.append(row | {"stop": "no candidate within the limits", "values": "", "why": why})
             continue
         best = choice.selected[0]
+        walked = [c for c in choice.candidates if c.walked]
+        half, end = (asked.search.ranked(x)[0] for x in (walked[: len(walked) // 2], walked))
         values = {n: x for n, x in best.values.items() if n in asked.search.variables}
         rows.append(
             row
             | {
-                "candidates": sum(c.walked for c in choice.candidates),
-                "on search": digits(choice.candidates[best.number].objective),
+                "candidates": len(walked),
+                "before": digits(half.objective) if half.feasible else "",
+                "on search": digits(end.objective),
                 "on choice": digits(best.objective),
                 "stop": choice.stop.replace("controller.", "").replace("hardware.encoders.", ""),
                 "values": json.dumps({n: digits(x) for n, x in values.items()}),
