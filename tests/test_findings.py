@@ -13,7 +13,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.studies.study import read_study
-from validation.findings import comparison, page, statistics
+from validation.findings import comparison, numbers, page, statistics
 from validation.findings.__main__ import COMPARED, DECLARED, SOFT, STUDIES, counts
 from validation.findings.statistics import Side
 
@@ -34,7 +34,7 @@ def test_the_page_is_that_of_its_rows():
 
 def test_the_page_is_short_and_its_rows_are_small():
     assert len(page.PAGE.read_text().split()) <= 2000
-    for path in page.ROWS.glob("*.csv"):
+    for path in numbers.ROWS.glob("*.csv"):
         assert path.stat().st_size <= 150_000, path.name
 
 
@@ -44,13 +44,13 @@ def test_the_rows_are_those_of_the_questions_that_stand_last_in_the_list_of_vers
         versions = list(csv.DictReader(file))
     assert versions[-1]["hash"] == statistics.text_hash()
     for name in (*COMPARED, SOFT):
-        assert {r["question"] for r in page.rows(name)} == {statistics.text_hash()}
+        assert {r["question"] for r in numbers.rows(name)} == {statistics.text_hash()}
         assert read_study(STUDIES / f"{name}.toml").seeds[0] == statistics.first_seed()
 
 
 def test_a_question_that_was_changed_after_its_walks_says_so(monkeypatch):
     monkeypatch.setattr(statistics, "text_hash", lambda: "another")
-    assert "changed after its walks" in page.warning(("exact", "v0.6", "tracking", "NPD"))
+    assert "changed after its walks" in numbers.warning(("exact", "v0.6", "tracking", "NPD"))
 
 
 def test_each_study_of_the_comparison_is_that_of_its_settings():
@@ -125,19 +125,21 @@ def test_holm():
 
 def test_the_numbers_of_the_readme_are_those_of_the_page():
     """Its first question with the interval, and how many walks are feasible."""
-    words = " ".join((page.ROOT / "README.md").read_text().split())
-    assert f"leaves **{page.in_words(page.answers()[0][1])}** of NPD's tracking error" in words
+    words = " ".join((comparison.ROOT / "README.md").read_text().split())
+    assert (
+        f"leaves **{numbers.in_words(numbers.answers()[0][1])}** of NPD's tracking error" in words
+    )
     at = ("rabbit", "v0.6", "tracking")
-    adrc, npd = (page.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
+    adrc, npd = (numbers.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
     assert f"Under ADRC {adrc} of 20 walks are feasible, under NPD {npd}." in words
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
     """Of 20 grounds v0.6 falls or stalls on 3 and walks none feasibly; the gait for rough ground walks all."""
-    monkeypatch.syspath_prepend(str(page.ROOT / "docs"))
+    monkeypatch.syspath_prepend(str(comparison.ROOT / "docs"))
     pictures = importlib.import_module("make_pictures")
     left, right = (pictures.outcomes(gait) for gait in ("v0.6", "rough"))
-    words = " ".join((page.ROOT / "README.md").read_text().split())
+    words = " ".join((comparison.ROOT / "README.md").read_text().split())
     assert f"Of {left.total()} such grounds" in words
     assert f"falls or stalls on {left['fell'] + left['ended']} and walks none feasibly" in words
     assert left["feasible"] == 0
@@ -146,5 +148,5 @@ def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
 
 def test_each_number_of_a_question_stands_on_the_page():
     text = page.PAGE.read_text()
-    for _, answer, _ in page.answers():
-        assert re.sub(r"\s+", " ", page.in_words(answer)) in re.sub(r"\s+", " ", text)
+    for _, answer, _ in numbers.answers():
+        assert re.sub(r"\s+", " ", numbers.in_words(answer)) in re.sub(r"\s+", " ", text)

@@ -10,8 +10,9 @@ import:
 
 A case is a named set of values, a condition another one that is crossed with it (`study`). A search proposes
 candidates: the case with other values of some variables, its setting; number 0 is the case itself. They are
-walked on three sets of walks: all on "search", the best few of them again on "choice", by which one is chosen,
-and this one and the case on "test" (`search`). A limit is a bound on a number of a candidate's walks.
+walked on three sets of walks: all on "search", the best few of them again on "choice", by which one is chosen
+(the next few where none of these keeps the limits there), and this one and the case on "test" (`search`). A
+limit is a bound on a number of a candidate's walks.
 
 A point is one walk: its place in the study (a number from 0), what locates it (`at`: case, condition, set,
 candidate, seed ..), and the values of its scenario. A row is the results of one walk by column. To rehearse is
@@ -33,7 +34,7 @@ from biped_adrc.studies.proposals import Round, WalkAll, optuna_library, searche
 from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Runner, StudyProgress
-from biped_adrc.studies.search import Candidate, Search, Walks
+from biped_adrc.studies.search import MOST_GROUPS, Candidate, Search, Walks
 from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, read_study, walk_names
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
@@ -152,12 +153,15 @@ class _Searched:
         search, base, (result, gain, ends) = self.search, self.study.values_of(case), last
         walk = partial(self.walk_case, case)
         failure = self.failure(result, case, "search")
-        if not failure:
-            few = _few(search, result)  # the finalists, and the case itself
-            pairs = zip(few, walk("choice", few), strict=True)
+        again = list[Candidate]()
+        for few in () if failure else _finalists(search, result):
             # the same candidates, judged by their walks on the second set
-            again = [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
-            failure = self.failure(again, case, "choice")
+            pairs = zip(few, walk("choice", few), strict=True)
+            again += [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
+            # the case itself, number 0, is none of those that the search found
+            if not few or any(c.feasible and c.number for c in again):
+                break
+        failure = failure or self.failure(again, case, "choice")
         if not failure:
             again = search.ranked(again)
             stop = self.stop(base, again[0], len(result), partial(walk, "choice"))
@@ -241,12 +245,17 @@ class _Searched:
         )
 
 
-def _few(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
-    """The best `search.finalists` of the candidates found, without a second one of the same values; and the
-    case itself, found[0], if it is none of them.
+def _finalists(search: Search, found: Sequence[Candidate]) -> Iterator[list[Candidate]]:
+    """Yield the best `search.finalists` of the candidates found, without a second one of the same values, and
+    beside them the case itself, found[0]; then as many of those after them that keep the limits: evenly from as
+    many as have been passed, so that MOST_GROUPS groups reach deep.
     """
     some: dict[str, Candidate] = {}
     for c in search.ranked(found):
         some.setdefault(repr(sorted(c.values.items())), c)
-    best = list(some.values())[: search.finalists]
-    return best if any(c.number == 0 for c in best) else [*best, found[0]]
+    best, size = list(some.values()), search.finalists
+    few = best[:size]
+    yield few if any(c.number == 0 for c in few) else [*few, found[0]]
+    fine = [c for c in best[size:] if c.feasible]
+    for i in range(MOST_GROUPS - 1):
+        yield fine[size * (2**i - 1) : size * (2 ** (i + 1) - 1) : 2**i]

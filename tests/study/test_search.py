@@ -140,6 +140,32 @@ def test_a_search_goes_on_with_more_doublings(tmp_path):
         carried(0, "one")
 
 
+def test_the_next_finalists_are_walked_where_the_first_keep_no_limit(tmp_path):
+    """On the walks of choice k1 has to be 0.8 of its best value at most, which the best candidates miss: the
+    next ones are walked, three from twice as far each time, until one keeps it, which is chosen.
+    """
+    search, found = found_by(budget=20)
+    k1 = search.ranked(found)[0].chosen["controller.k1"]
+
+    def narrow(asked):
+        seeds = (record["run.seed"] for record in asked)
+        above = (record["controller.k1"] / k1 > 0.8 for record in asked)
+        rows = zip(plants.costs(asked), seeds, above, strict=True)
+        return [row | {"peak_error": float(seed == 1 and x)} for row, seed, x in rows]
+
+    limits = [{"column": "peak_error", "most": 0.5, "over": "worst"}]
+    with ThreadPoolExecutor(1) as pool:
+        tables = plants.tables(budget=20, limits=limits, finalists=3)
+        (choice,) = ba.study(tables, tmp_path, pool, function=narrow).choices.values()
+    chosen, rank = choice.selected[0], {c.number: i for i, c in enumerate(search.ranked(found))}
+    assert chosen.chosen["controller.k1"] <= 0.8 * k1
+    # by rank, without the case itself: 0, 1, 2; 3, 4, 5; 6, 8, 10; 12, 16, 20; ..
+    walked_ = sorted(rank[c.number] for c in choice.selected if c.number)
+    expected = [0, 1, 2, *(3 * 2**i + j * 2**i for i in range(5) for j in range(3))]
+    assert walked_ == expected[: len(walked_)]
+    assert rank[chosen.number] in walked_[-3:]
+
+
 def test_equal_cases_are_searches_with_other_seeds(tmp_path):
     """Two cases of the same values have other candidates: the second one's sampler has the seed after."""
     tables = plants.tables(budget=3, generation=4)
@@ -238,8 +264,8 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     assert [*search.values({}, chosen | {order: 4})] == [*chosen][:3]
     # some: the middle of all variables, then each choice beside it; a study is rehearsed with them
     assert list(search.some({})) == [npd, npd, middle]
-    # 3 candidates for each of 4 variables; 5 finalists, the case, and 8 beside; the choice and the case
-    assert search.count({"search": 2, "choice": 3, "test": 5}, {}) == 12 * 2 + 14 * 3 + 2 * 5
+    # 3 candidates for each of 4 variables; 8 times 5 finalists, the case, and 8 beside; the choice and the case
+    assert search.count({"search": 2, "choice": 3, "test": 5}, {}) == 12 * 2 + 49 * 3 + 2 * 5
     # walks(x): a walk that ended well, with the objective x
     walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
     search = search.model_copy(update={"budget": 8, "generation": 5, "walks": search.walks})
