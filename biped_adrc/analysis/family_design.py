@@ -7,7 +7,7 @@ It is made of a library and two fits.
     curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
     steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 4,
                and sigma^2 of the periodic walks by their mean speed, of degree 6
-    slowest    least speed of the member on which a step may end, as a polynomial of degree 4 in (v, L)
+    reach      least and largest speed of the member on which a step may end, of degree 4 in (v, L)
 
     v, L           speed [m/s] and step length [m]; a member of the family is the gait of one pair (v, L)
     Theta          phase of a gait, Theta = c q [rad]; Theta+ where a step begins, Theta- where it ends
@@ -57,9 +57,10 @@ _NODES = 16
 """Number of Gauss nodes of each part of a step, before and after the decision (`control.footstep`)."""
 _HALVED = 8
 """How often the range of speeds is halved in which a step may end."""
-_SHARE = 0.5
-"""Share of the way [1] from v to the least speed that ground and motors bear on level ground without a tracking
-error. With 1 in place of 0.5, 18 of 300 walks on ground of 43 mm behind encoders fail, in place of 5."""
+_SHARES = (0.5, 0.9)
+"""Shares of the way [1] from v to the least and to the largest speed that ground and motors bear on level
+ground without a tracking error. With 1 in place of 0.5, 18 of 300 walks on ground of 43 mm behind encoders
+fail, in place of 5; with 1 in place of 0.9 the foot slips in one of 400 random schedules of speeds."""
 
 
 def library(
@@ -164,7 +165,7 @@ def design_family(
     to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
     _, L, speed, y = np.transpose(cycles)
     of_cycle = PolynomialMap.fit(np.column_stack((speed, L)), y[:, np.newaxis], CYCLE_DEGREE)
-    maps = StepMap(to_impact, to_decision, of_cycle, slowest(biped, family, cycles))
+    maps = StepMap(to_impact, to_decision, of_cycle, reach(biped, family, cycles))
     return replace(family, steps=maps, members=members)
 
 
@@ -257,31 +258,34 @@ class TwoSteps:
         return bool(grip and np.max(np.abs(orbit.u)) <= limits.torque)
 
 
-def slowest(biped: Biped, family: GaitFamily, cycles: Sequence[tuple[float, ...]]) -> PolynomialMap:
-    """`StepMap.slowest`, fitted to the periodic walks `cycles`: at each of them it lies above the speed that is
-    _SHARE of the way from v to the least one (`_least`).
+def reach(biped: Biped, family: GaitFamily, cycles: Sequence[tuple[float, ...]]) -> PolynomialMap:
+    """`StepMap.reach`, fitted to the periodic walks `cycles`: at each of them it lies between the speeds that
+    are _SHARES of the way from v to the extreme ones (`_extreme`).
     """
-    found = [(v, L, v + _SHARE * (_least(biped, family, v, L, y) - v)) for v, L, _, y in cycles]
-    *mu, end = np.transpose(found)
-    return PolynomialMap.above(np.transpose(mu), end[:, np.newaxis], STEP_DEGREE)
+    found = []
+    for v, L, _, y in cycles:
+        ends = (_extreme(biped, family, v, L, y, far) for far in (family.low[0], family.high[0]))
+        found.append((v, L, *(v + s * (end - v) for s, end in zip(_SHARES, ends, strict=True))))
+    mu, signs = np.array(found)[:, :2], np.array((1.0, -1.0))
+    inside = PolynomialMap.above(mu, signs * np.array(found)[:, 2:], STEP_DEGREE)
+    return replace(inside, coefficients=signs * inside.coefficients)
 
 
-def _least(biped: Biped, family: GaitFamily, v: float, L: float, y: float) -> float:
-    """The least speed [m/s] of a member on which a step that begins on the member v [m/s] may end, within the
-    robot's limits, between periodic steps of length L [m]. y: sigma^2 at its decision [kg^2 m^4/s^2].
+def _extreme(biped: Biped, family: GaitFamily, v: float, L: float, y: float, far: float) -> float:
+    """The speed [m/s] nearest to `far` of a member on which a step that begins on the member v [m/s] may end,
+    within the robot's limits, between periodic steps of length L [m].
 
-    It is found by bisection between the slowest member and v, and is v where that itself misses a limit.
+    y: sigma^2 at its decision [kg^2 m^4/s^2]. It is found by bisection between v and `far`, and is v where that
+    itself misses a limit.
     """
-    limits = Limits().of(biped.description)
-    low, high = family.low[0], v
-    end = low
+    limits, near, end = Limits().of(biped.description), v, far
     for _ in range(_HALVED):
         if TwoSteps.of(biped, family, v, L, L, end, L).keeps(y, limits):
-            high = end
+            near = end
         else:
-            low = end
-        end = 0.5 * (low + high)
-    return high
+            far = end
+        end = 0.5 * (near + far)
+    return near
 
 
 def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:

@@ -27,10 +27,10 @@ next step is
     delta    sigma just after the impact over sigma just before it, in that cycle
 
 Without the correction the error y - y_0 is delta^2 times as large at the next decision, with it `pole` times.
-y_next is kept between the y of the cycles of the family's slowest and fastest member, and v+ above the least
-speed at which a step from v- may end (`StepMap.slowest`): below it the foot slips, or a motor is too weak. The
-map from step to step is used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the
-contact as its state (Gong, Grizzle, arXiv 2008.10763).
+y_next is kept between the y of the cycles of the family's slowest and fastest member, and v+ between the least
+and the largest speed at which a step from v- may end (`StepMap.reach`): beyond it the foot slips, or a motor is
+too weak. The map from step to step is used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular
+momentum about the contact as its state (Gong, Grizzle, arXiv 2008.10763).
 
 The estimates of sigma and r come from a momentum observer with its poles at -omega: sigma' = -G_N + r, with G_N
 gravity's part of the unactuated row.
@@ -306,8 +306,9 @@ class Footstep(OuterLoop):
         low, high = (steps.cycle_square(v, ahead) for v in (slowest, fastest))
         goal = np.minimum(np.maximum(goal, low), high)
         # to stay on the member v- is always allowed
-        least = np.minimum(steps.slowest(np.array((x.begin, x.L)))[0], x.begin)
-        return np.maximum(self.zero(lambda v: following(v) - goal), least)
+        least, most = steps.reach(np.array((x.begin, x.L)))
+        v = self.zero(lambda v: following(v) - goal)
+        return np.minimum(np.maximum(v, np.minimum(least, x.begin)), np.maximum(most, x.begin))
 
     def zero(self, f: Callable[[float], float]) -> float:
         """The speed v [m/s] in the family's range at which f(v) is 0. Where that is 0 nowhere in it, the nearer

@@ -23,7 +23,7 @@ Theta has gone the share DECISION = 0.35 of its way. y = sigma^2 at the decision
     W, J    integrals from the decision to the impact; W', J' from the impact to the next decision
 
 `StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too, y at the decision of the periodic walks, and the
-slowest member on which a step may end.
+slowest and the fastest member on which a step may end.
 """
 
 import json
@@ -44,7 +44,7 @@ from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
 from biped_adrc.gait.curves import Bezier, bernstein_to_power
 from biped_adrc.model.biped import Biped
 
-_FORMAT = "biped_adrc family 3"
+_FORMAT = "biped_adrc family 4"
 """First entry of a family's file."""
 DECISION = 0.35
 """Share of a walking step, in Theta, at which `control.footstep` decides on which member the step ends."""
@@ -112,9 +112,9 @@ class StepMap(Part):
     of_cycle: PolynomialMap
     """(mean speed [m/s], L) of a periodic walk -> y at its decision; the fit of the curves moves the mean speed
     of the member v by some per cent from v."""
-    slowest: PolynomialMap
-    """(v, L) -> least speed [m/s] of the member on which a step of length L may end that begins on the member
-    v: on a slower one the foot would slip, or a motor be too weak."""
+    reach: PolynomialMap
+    """(v, L) -> least and largest speed [m/s] of the member on which a step of length L may end that begins on
+    the member v: beyond them the foot would slip, or a motor be too weak."""
 
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
         """y [kg^2 m^4/s^2] at the next step's decision, from y at this step's decision.

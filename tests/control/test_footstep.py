@@ -111,7 +111,7 @@ def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_pat
     with pytest.raises(GaitError, match="2 speeds and 1 lengths, expected at least 5"):
         library(biped, [0.5, 0.6], [0.3])
     path.write_text('{"format": "another"}')
-    with pytest.raises(GaitError, match="it is no family, whose format is 'biped_adrc family 3'"):
+    with pytest.raises(GaitError, match="it is no family, whose format is 'biped_adrc family 4'"):
         load_family(path, biped)
 
 
@@ -247,24 +247,43 @@ def test_the_robot_slows_down_over_several_steps(biped, slow):
     assert walk.feasibility.outcome == "feasible"
     family = walk.walker.controller.family
     own = [walk.walker.split_state(arc.x[-1])[2].own for arc in walk.trajectory.arcs]
-    room = [w.end - family.steps.slowest(np.array((w.begin, w.L)))[0] for w in own]
+    room = [w.end - family.steps.reach(np.array((w.begin, w.L)))[0] for w in own]
     assert min(room) == pytest.approx(0.0, abs=1e-9)
-    every = PolynomialMap(((0, 0),), family.low[:1, np.newaxis], family.low, family.high)
-    free = replace(family, steps=replace(family.steps, slowest=every))
-    law = replace(walk.walker.controller, family=free)
-    at_once = ba.walk(ba.Walker(biped, law, timing=CLOCK, torque_limit=150.0), slow, impacts=16)
-    assert at_once.feasibility.outcome != "feasible"
+    assert at_once(biped, slow, walk).feasibility.outcome != "feasible"
+
+
+def at_once(biped, gait, walk):
+    """The walk with a family that lets each step end on all members."""
+    law, starts = walk.walker.controller, len(walk.trajectory.arcs)
+    ends = np.array([[law.family.low[0], law.family.high[0]]])
+    every = PolynomialMap(((0, 0),), ends, law.family.low, law.family.high)
+    law = replace(law, family=replace(law.family, steps=replace(law.family.steps, reach=every)))
+    walker = ba.Walker(biped, law, timing=CLOCK, torque_limit=150.0)
+    return ba.walk(walker, gait, impacts=starts - 1)
+
+
+def test_the_robot_speeds_up_over_several_steps(biped, slow):
+    """From 0.5 m/s to 1.0 m/s: with a family that lets each step end on all members the foot slips."""
+    walk = ba.walk(walker(biped, slow, speeds=(0.5,) * 4, speed=1.0, step=0.4), slow, impacts=12)
+    assert walk.feasibility.outcome == "feasible"
+    own = [walk.walker.split_state(arc.x[-1])[2].own for arc in walk.trajectory.arcs]
+    steps = walk.walker.controller.family.steps
+    room = [steps.reach(np.array((w.begin, w.L)))[1] - w.end for w in own]
+    assert min(room) == pytest.approx(0.0, abs=1e-9)
+    assert at_once(biped, slow, walk).feasibility.outcome != "feasible"
 
 
 @pytest.mark.parametrize("name", ["rough", "flat"])
 def test_a_step_may_end_where_ground_and_motors_bear_it(biped, name):
-    """On the slowest member that is stored a step is borne, and not on one that is 0.25 m/s slower."""
+    """A step is borne on the slowest member that is stored, and not on one that is 0.25 m/s slower; on the
+    fastest one, and not on one that is 0.1 m/s faster.
+    """
     family, limits = load_family(name, biped), ba.Limits().of(biped.description)
-    for v, L in ((0.95, 0.34), (1.0, 0.4)):
-        least = family.steps.slowest(np.array((v, L)))[0]
-        assert family.low[0] + 0.25 < least < v
+    for v, L, end, beyond in ((0.95, 0.34, 0, -0.25), (1.0, 0.4, 0, -0.25), (0.8, 0.24, 1, 0.1)):
+        last = family.steps.reach(np.array((v, L)))[end]
+        assert family.low[0] < min(last, last + beyond) < max(last, last + beyond) < family.high[0]
         y = family.steps.cycle_square(v, L)
-        ends = (v, least, least - 0.25)
+        ends = (v, last, last + beyond)
         borne = [TwoSteps.of(biped, family, v, L, L, x, L).keeps(y, limits) for x in ends]
         assert borne == [True, True, False]
 
