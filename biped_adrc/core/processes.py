@@ -29,8 +29,8 @@ KEPT = 3 * 2**23
 """Number of bytes that a worker allocates and frees at first: glibc then keeps twice as many of the bytes that
 are freed later, so that a chunk of walks need not ask the system for its pages anew."""
 NO_GUARD = (
-    "no worker process could start: workers import the script that starts them, so that it has to do so under "
-    "if __name__ == '__main__':"
+    "no worker process could start: workers import the script that starts them, which has to be a file, and to "
+    "do so under if __name__ == '__main__':"
 )
 """What a user reads where workers end before their first task."""
 SAFE_PATH = "PYTHONSAFEPATH"

@@ -242,13 +242,13 @@ def place_of(row: Mapping[str, str]) -> Place:
 
 def gain(at: Place) -> float:
     """The share [1] by which the last doubling made the best of all searches of a controller at a place better,
-    on the walks of the searches; infinite where none kept the limits before it.
+    on the walks of choice; infinite where none kept the limits before it.
     """
     sign = comparison.sign_of(at[2])
-    mine = [r for r in rows("settings") if place_of(r) == at and r["values"]]
+    mine = [r for r in rows("settings") if place_of(r) == at]
     before, after = (
         min((sign * float(r[k]) for r in mine if r[k]), default=math.inf)
-        for k in ("before", "on search")
+        for k in ("before", "on choice")
     )
     return (before - after) / abs(before) if before < math.inf else math.inf
 

@@ -180,7 +180,9 @@ def fields() -> dict[str, Any]:
             npd=walks_of("NPD, rough", "20 mm"),
             rough=walks_of("reset, rough", "20 mm"),
         ),
-        "plan": Names(low=min(budgets), high=max(budgets)),
+        "plan": Names(
+            low=min(budgets), high=max(budgets), once=min(doublings), more=max(doublings)
+        ),
         "orders": Names(
             most=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (1, 2, 3, 5, 7)),
         ),

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import biped_adrc as ba
-from biped_adrc.studies.study import read_study
+from biped_adrc.studies.results import Results
 from validation.findings.statistics import questions
 
 PLAN = tomllib.loads((Path(__file__).parent / "comparison.toml").read_text())
@@ -34,7 +34,6 @@ COLUMNS = (
     "search",
     "candidates",
     "before",
-    "on search",
     "on choice",
     "stop",
     "values",
@@ -109,40 +108,46 @@ def search_at(
 ) -> list[dict[str, Any]]:
     """Search all controllers at a place, or some more often; returns a row for each search."""
     tables = study_of(*at, more)
-    asked = read_study(tables)
-    assert asked.search is not None
     out = folder / "-".join((*at, *(["more"] if more else [])))
-    found = ba.study(
-        asked, out, workers, progress=lambda p: print(p.note, flush=True) if p.note else None
-    )
-    rows = []
-    for case in tables["cases"]:
-        controller, _, number = case.partition(" #")
-        row = dict(zip(COLUMNS, at, strict=False)) | {
-            "controller": controller,
-            "search": int(number),
-        }
-        choice = found.choices.get(case)
-        if choice is None:
-            why = next(x for x in found.failures if f", {case}:" in x)
-            rows.append(row | {"stop": "no candidate within the limits", "values": "", "why": why})
-            continue
-        best = choice.selected[0]
-        walked = [c for c in choice.candidates if c.walked]
-        half, end = (asked.search.ranked(x)[0] for x in (walked[: len(walked) // 2], walked))
-        values = {n: x for n, x in best.values.items() if n in asked.search.variables}
-        rows.append(
-            row
-            | {
-                "candidates": len(walked),
-                "before": digits(half.objective) if half.feasible else "",
-                "on search": digits(end.objective),
-                "on choice": digits(best.objective),
-                "stop": choice.stop.replace("controller.", "").replace("hardware.encoders.", ""),
-                "values": json.dumps({n: digits(x) for n, x in values.items()}),
-            }
+    most = tables["search"]["doublings"]
+
+    def carried(doublings: int) -> Results:
+        """The study with at most so many doublings, which goes on from what the ones before have walked."""
+        asked = merge(tables, {"search": {"doublings": doublings}})
+        return ba.study(
+            asked, out, workers, progress=lambda p: print(p.note, flush=True) if p.note else None
         )
-    return rows
+
+    # what each search had chosen before its last doubling
+    path = out.with_suffix(".json")
+    if not path.exists():
+        chosen = {k: x.selected[0].objective for k, x in carried(most - 1).choices.items()}
+        path.write_text(json.dumps(chosen))
+    before, found = json.loads(path.read_text()), carried(most)
+    return [
+        dict(zip(COLUMNS, at, strict=False))
+        | row_of(case, found)
+        | {"before": before.get(case, "")}
+        for case in tables["cases"]
+    ]
+
+
+def row_of(case: str, found: Results) -> dict[str, Any]:
+    """What was found for a case."""
+    controller, _, number = case.partition(" #")
+    row: dict[str, Any] = {"controller": controller, "search": int(number)}
+    if case not in found.choices:
+        why = next(x for x in found.failures if f", {case}:" in x)
+        return row | {"stop": "no candidate within the limits", "values": "", "why": why}
+    choice = found.choices[case]
+    best, variables = choice.selected[0], found.study.search.variables  # type: ignore[union-attr]
+    values = {n: digits(x) for n, x in best.values.items() if n in variables}
+    return row | {
+        "candidates": sum(c.walked for c in choice.candidates),
+        "on choice": digits(best.objective),
+        "stop": choice.stop.replace("controller.", "").replace("hardware.encoders.", ""),
+        "values": json.dumps(values),
+    }
 
 
 def digits(x: float) -> float:
