@@ -251,7 +251,7 @@ def test_a_law_that_does_not_hold_ends_check_and_new(biped, monkeypatch, tmp_pat
     code, text = ended("robot", "check", "x.urdf", "--plot", tmp_path / "x.svg")
     # twice: among the checks, and as the error
     assert (code, text.count("energy [J]: 1.0e+00 is not <= 0.1")) == (1, 2)
-    with pytest.raises(ModelError, match=r"^URDF 'x.urdf': energy \[J\]: 1.0e\+00 is not <= 0.1$"):
+    with pytest.raises(ModelError, match=r"^'x.urdf': energy \[J\]: 1.0e\+00 is not <= 0.1$"):
         command("robot", "new", "x.urdf", "-o", tmp_path / "new")
 
 

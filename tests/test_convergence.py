@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,8 +22,9 @@ from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.paper.metrics import largest_gap, order_of_error
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
+from biped_adrc.scenario.build import build
 from biped_adrc.scenario.integration import FINE_STEP, WalkPart, in_parts, refined
-from biped_adrc.scenario.walk import execute_twice, walk_scenario
+from biped_adrc.scenario.walk import execute_twice, halved, step_options, walk_scenario
 
 from .made_up_results import outcome
 
@@ -86,17 +88,36 @@ def test_two_steps_have_to_agree(half, holds):
     ("half", "word"),
     [
         ((1.001e-3, "COMPLETED", 2), "rad (1.001e-03 at half the step)"),
-        ((2e-3, "COMPLETED", 2), "the step decides it; shorten it"),
-        ((1e-3, "FELL", 1), "the walk ends as FELL after 1 impacts"),
+        ((2e-3, "COMPLETED", 2), "the step decides it; shorten it, as --set x=1"),
+        ((1e-3, "FELL", 1), "ends as FELL after 1 impacts: shorten the step, as --set x=1"),
     ],
 )
 def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
     """A walk has an error of 1e-3 rad; in brackets behind it stands what half the step gives. `half`: (error
     [rad], status, impacts) there. 0.1 % apart it is the other error alone, a factor of 2 or another ending has
     a hint (`word`)."""
-    text = error_text((1e-3, "COMPLETED", 2), half)
+    text = error_text("--set x=1", (1e-3, "COMPLETED", 2), half)
     assert text.startswith("1.000e-03 rad (")
     assert word in text
+
+
+@pytest.mark.parametrize(
+    ("asked", "options"),
+    [
+        ({}, "--set run.h=0.00025 --set run.fine=2.5e-05"),
+        ({"controller": "NPD"}, "--set run.h=0.0005"),
+        ({"run.method": "adaptive", "run.tolerance": 1e-6}, "--set run.tolerance=1e-08"),
+        ({"hardware": "ideal", "ground": "mujoco"}, "--set ground.plant_step=0.0001"),
+    ],
+)
+def test_the_hint_names_the_values_that_shorten_the_step_of_this_walk(asked, options):
+    """The steps are named and halved that the scenario `asked` for, or has by default: of the rigid plant with
+    the one around a push, of the adaptive method its tolerance, of soft ground the plant's own."""
+    s = ba.Scenario().replace(asked)
+    each = [
+        SimpleNamespace(scenario=x) for x in (s, halved(s, build(s)))
+    ]  # of a walk no more is used
+    assert step_options(*each) == options
 
 
 @pytest.mark.parametrize("limit", [1.0, 0.0, -0.1])

@@ -459,7 +459,11 @@ def failing(x):
 @pytest.mark.parametrize(
     ("text", "call", "arguments"),
     [
-        ("law needs x; give at.x beside []", "construct", (failing, {}, str, "at")),
+        (
+            "law needs x; give at.x",
+            "construct",
+            (failing, {}, str, "at"),
+        ),
         ("law could not be made: ZeroDivisionError: no", "construct", (failing, {"x": 1}, str)),
         ("law made a int, expected a str", "construct", (lambda x, y=2, **k: x, {"x": 1}, str)),
         ("expected a class or a function written in", "construct", (dict, {}, str)),

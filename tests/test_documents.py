@@ -36,6 +36,7 @@ from biped_adrc.cli import app
 from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
 from biped_adrc.core import registry
+from biped_adrc.extras.logs import replay
 from biped_adrc.paper.scenarios import Plan, base_runs
 from biped_adrc.studies.build import SEED
 from biped_adrc.studies.search import Search
@@ -240,6 +241,28 @@ def test_what_a_search_leaves_out_is_as_the_page_of_studies_says():
     row = re.search(r"^\| `finalists`, `seed` \|(.*)$", page, re.MULTILINE)[1]
     usual = [Search.model_fields[name].default for name in ("finalists", "seed")]
     assert [int(x) for x in re.findall(r"\((\d+)\)", row)] == usual
+
+
+def test_each_line_that_gait_show_prints_is_on_the_page_of_gaits():
+    """The command prints NAME  NUMBERS in lines; the page has the names in tables, one sign and one way of the
+    heights for all."""
+    printed = CliRunner().invoke(app, ["gait", "show", "v0.8"]).output
+    lines = printed[printed.index("\nTheta") :].splitlines()
+    names = {re.split(r"  +", line)[0] for line in lines if re.search(r"^\S.*?  +\S", line)}
+    assert len(names) > 25
+    page = (ROOT / "docs" / "guide" / "gaits.md").read_text(encoding="utf-8")
+    for name in names:
+        said = re.sub(r"^H (up|down|both) (?=w)", "... ", name.replace(" +", " -"))
+        assert f"`{said}`" in page, name
+
+
+def test_each_column_of_a_replay_is_on_its_page():
+    """The table that `replay` prints, and the signals of replay.csv, whose names stand without joint and
+    unit."""
+    page = (ROOT / "docs" / "guide" / "replay.md").read_text(encoding="utf-8")
+    signals = [heading.split(" {}")[0] for heading in replay._COLUMNS.values()]
+    for name in (*replay.HEADER, *signals):
+        assert f"`{name}`" in page, name
 
 
 def test_the_stored_walks_are_as_long_as_the_plan_asks_for():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib
 import json
 import re
@@ -47,13 +48,19 @@ def test_the_notebook_is_that_of_the_page(scripts):
 
 
 def test_the_notebook_runs(tmp_path, monkeypatch):
-    """Its code cells in order, in one namespace and an empty folder."""
+    """Its code cells in order, in one namespace and an empty folder. One ends with what Jupyter draws."""
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {"__name__": "__main__"}
     cells = [c for c in json.loads(NOTEBOOK.read_text())["cells"] if c["cell_type"] == "code"]
     assert cells
+    drawn = 0
     for number, cell in enumerate(cells, 1):
-        exec(compile("".join(cell["source"]), f"cell {number}", "exec", dont_inherit=True), names)
+        source = "".join(cell["source"])
+        exec(compile(source, f"cell {number}", "exec", dont_inherit=True), names)
+        last = ast.parse(source).body[-1]
+        if isinstance(last, ast.Expr) and isinstance(last.value, ast.Name):
+            drawn += hasattr(names[last.value.id], "_repr_html_")
+    assert drawn == 1
 
 
 def linked() -> list[Path]:

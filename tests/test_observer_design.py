@@ -436,7 +436,7 @@ def test_words_on_an_observer(biped, gait):
         (
             FIRST,
             {"delay": 5e-3},
-            ("with a delay of 5000 us and 1.25 times", "margin at this period is"),
+            ("with a delay of 5 ms and 1.25 times", "margin at this period is"),
         ),
     ):
         report = observer_report(observer_, robot=biped, gait=gait, **hardware)

@@ -85,7 +85,8 @@ class DesignedGait(Shown):
             ("peak torque", f"{c.peak_torque:.2f} N m"),
             ("friction", f"{c.friction:.3f}, of the impulse {c.impulse_ratio:.3f}"),
             ("least F_N", f"{c.least_normal_force:.1f} N"),
-            ("foot clearance", f"{1e3 * c.clearance:.1f} mm, {within}"),
+            # to 1 um: the foot of legs without knees is within some of the ground; + 0.0 turns -0.0 into 0.0
+            ("foot clearance", f"{round(1e3 * c.clearance, 3) + 0.0:g} mm at the least, {within}"),
             ("cost of transport", f"{c.cost_of_transport:.4f}"),
             *self._rough_rows(unit),
             (f"walked {_STEPS} steps under NPD, back within {self.gap:.1e}",),

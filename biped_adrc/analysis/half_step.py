@@ -55,15 +55,15 @@ WalkEnd = tuple[float, str, int]
 """What `error_text` says of a walk: largest tracking error [rad], status, number of impacts."""
 
 
-def error_text(end: WalkEnd, half: WalkEnd) -> str:
+def error_text(shorter: str, end: WalkEnd, half: WalkEnd) -> str:
     """Text of the largest tracking error at both integration steps, end: of the walk at the step used, half: at
-    half of it; with a hint to shorten the step where the two walks do not agree.
+    half of it; where the two walks do not agree, with the hint `shorter`, the options for a shorter step.
     """
     errors = AtTwoSteps(end[0], half[0])  # [0]: the error; behind it status and number of impacts
     text = f"{errors.value:.3e} rad ({errors.at_half:.3e} at half the step)"
     if end[1:] != half[1:]:
         ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
-        return f"{text}; {ends}: shorten the step, as --set run.h=2e-4"
+        return f"{text}; {ends}: shorten the step, as {shorter}"
     if errors.converged(PEAK_RESOLUTION) or max(errors) < NEGLIGIBLE:
         return text
-    return f"{text}: the step decides it; shorten it, as --set run.h=2e-4"
+    return f"{text}: the step decides it; shorten it, as {shorter}"

@@ -208,8 +208,8 @@ def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:
     doubt = ""
     if not step.flow_residual <= FLOW:
         doubt = (
-            f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
-            f"{FLOW:g}: take a shorter step, or look whether the flow depends on time"
+            f"its Phi misses (q', q'') before the impact by {step.flow_residual:.1e}, allowed {FLOW:g}: "
+            "shorten the integration step, or see whether the law depends on time or has corners"
         )
     central, noise = central_multipliers(P, step.s), noise_of_differences(P, step)
     return StabilityTable(central, step.multipliers, noise, doubt)

@@ -1,6 +1,6 @@
-"""`biped-adrc robot`: the robots that come with the package, and robots from a user's own URDF.
+"""`biped-adrc robot`: the robots that come with the package, and robots from a user's own URDF or MJCF.
 
-`check` and `new` derive a biped from a URDF (`model.robot_import.derive`): what the file does not say is
+`check` and `new` derive a biped from such a file (`model.robot_import.derive`): what the file does not say is
 guessed, each guess is printed, and the model is checked against laws of mechanics. `list` prints
 the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`extras.mujoco.mjcf`).
 
@@ -30,7 +30,7 @@ from biped_adrc.core.files import check_folder
 if TYPE_CHECKING:
     from biped_adrc.model.robot_import.import_robot import Derived
 
-robot_app = group("robot", "Show the robots there are, or bring one's own from a URDF.")
+robot_app = group("robot", "Show the robots there are, or bring one's own (URDF, MJCF).")
 
 
 @robot_app.command("list")
@@ -72,9 +72,10 @@ def robot_check(
     sets: list[str] | None = None,
     plot: Path | None = None,
 ) -> None:
-    """Read a URDF as a biped: say what was read, assumed and left out, draw it, check the laws of mechanics.
+    """Read a URDF or MJCF as a biped: say what was read, assumed and left out, draw it, check the laws of
+    mechanics.
 
-    Exit code 0 when every law holds, 1 when one does not, 3 when the URDF is refused.
+    Exit code 0 when every law holds, 1 when one does not, 3 when the file is refused.
     """
     plot = target(plot or Path(f"{file.stem}.png"), FIGURES, (file,))
     derived = _derived(file, feet, actuated, torque, sets)
@@ -100,15 +101,14 @@ def robot_new(
     torque: float | None = None,
     sets: list[str] | None = None,
 ) -> None:
-    """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
+    """Write floating.urdf and robot.toml of a URDF or MJCF, for Biped.load("FOLDER/robot.toml")."""
     check_folder(out)
     derived = _derived(file, feet, actuated, torque, sets)
     # nothing is written for a model that breaks a law of mechanics
     if derived.broken:
-        raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
-    record = derived.write(out)
+        raise ModelError(f"'{file}': {'; '.join(map(str, derived.broken))}")
     _explain(derived)
-    console.written(record)
+    console.written(derived.write(out))
 
 
 @robot_app.command("export")
@@ -138,7 +138,7 @@ def robot_export(
 def _derived(
     file: Path, feet: str | None, actuated: str | None, torque: float | None, sets: list[str] | None
 ) -> Derived:
-    """The robot of the URDF `file`, with its notes and checks; what the options say of it is not guessed.
+    """The robot of `file`, with its notes and checks; what the options say of it is not guessed.
 
     feet, actuated: names of two links and of the joints with motors, between commas; torque [N m]: limit of
     every motor; sets: other fields of `Hints`. What is None is guessed.
@@ -157,7 +157,7 @@ def _names(text: str | None) -> tuple[str, ...] | None:
 
 
 def _explain(derived: Derived) -> None:
-    """Print the robot, what was read, assumed and left out of its URDF, and whether each law holds."""
+    """Print the robot, what was read, assumed and left out of its file, and whether each law holds."""
     _describe(derived.biped)
     for note in derived.notes:
         console.say(f"{note.kind:<8} {note.text}")

@@ -122,6 +122,7 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     """
     from biped_adrc.analysis.half_step import error_text
     from biped_adrc.analysis.signals import FALLS
+    from biped_adrc.scenario.walk import step_options
 
     feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
     _print_steps(feasibility.supports, certificates)
@@ -132,7 +133,7 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
         # of both walks: largest tracking error [rad], status at the end, number of impacts
         ends = [(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in each]
         fall = " up to the fall" if run.status in FALLS else ""
-        error = f"largest tracking error {error_text(*ends)}{fall}"
+        error = f"largest tracking error {error_text(step_options(*each), *ends)}{fall}"
         about = f"{error}, peak torque {walk.peak_torque:.1f} N m, {run.settings['method']}"
     console.print(f"{run.status.name}: {run.status.value} {run.detail}".strip())
     console.print(f"{walk.impacts_text}, {about}\n{feasibility.text()}")

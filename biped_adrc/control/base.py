@@ -131,6 +131,8 @@ class Controller(Part):
     reads_impulse: ClassVar[tuple[str, ...]] = ()
     """Which of the methods "output" and "correct" leave the directions of `Measurement.impulse` out of their
     errors; none by default."""
+    in_python: ClassVar[str] = ""
+    """Why a law of this package cannot be compiled, for the user who walks with it; empty for all others."""
 
     def output(self, s: Any, m: Measurement) -> Array:
         """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError

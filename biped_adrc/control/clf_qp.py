@@ -137,6 +137,7 @@ class CLFQPController(Controller):
     """
 
     needs_body: ClassVar[bool] = True
+    in_python = "it solves a quadratic program at each call"
 
     reference: Reference
     epsilon: PositiveFloat = 0.01

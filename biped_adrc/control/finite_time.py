@@ -23,7 +23,7 @@ from typing import Annotated
 import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.control.output_npd import linearising_torque
+from biped_adrc.control.output_npd import OutputNPDController, linearising_torque
 from biped_adrc.core.checks import PositiveFloat, Range
 from biped_adrc.core.types import Array
 from biped_adrc.gait.outputs import Outputs
@@ -61,6 +61,8 @@ class FiniteTimeController(Controller):
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
     1
     """
+
+    in_python = OutputNPDController.in_python
 
     outputs: Outputs
     alpha: ExponentFloat

@@ -43,6 +43,8 @@ class OutputNPDController(Controller):
     where J D^-1 B is singular.
     """
 
+    in_python = "it asks LAPACK whether J D^-1 B is singular"
+
     outputs: Outputs
     gains: Gains = TABLE_II
 

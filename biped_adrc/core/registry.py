@@ -241,8 +241,8 @@ def construct(
     """
     names, missing = takes(make), lacking(make, values)
     if missing:
-        name = f"{place}.{missing[0]}".lstrip(".")
-        raise InputError(f"{what} needs {', '.join(missing)}; give {name} beside {sorted(values)}")
+        give = ", ".join(f"{place}.{name}".lstrip(".") for name in missing)
+        raise InputError(f"{what} needs {', '.join(missing)}; give {give}")
     try:
         made = make(**{name: x for name, x in values.items() if name in names})
     except BipedError:

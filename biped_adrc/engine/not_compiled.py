@@ -34,7 +34,10 @@ def located(f: object) -> Iterator[None]:
     except Located:
         raise
     except Exception as error:
-        raise Located(f"{_place(error, f)} cannot be compiled: {error}") from error
+        # NumPy's own words, of casts and of a class of this compiler, would tell the author of a law nothing
+        numpys = any(x in str(error) for x in ("ufunc", "'Scalar' object", "unsupported operand"))
+        why = "a function or operator there has no compiled form" if numpys else error
+        raise Located(f"{_place(error, f)} cannot be compiled: {why}") from error
 
 
 def _place(error: Exception, f: Any) -> str:

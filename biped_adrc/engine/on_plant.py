@@ -85,7 +85,7 @@ class CompiledLoop(SteppingLoop):
             _ = values["program"].machine  # compiles, or raises NotCompiled
         except (NotCompiled, ModelError) as reason:
             # the controller runs in Python, on a compiled model
-            engine = {"engine": "compiled model", "why": str(reason)}
+            engine = {"engine": "compiled model", "why": f"{reason}; it runs in Python, slower"}
             values["program"] = None
             # []: gets the references that were compiled, of which nobody asks here
             values["controller"] = compiled_references(self.controller, self.plant.n, [])

@@ -108,7 +108,7 @@ def run_compiled(
         run = simulate_compiled(compiled, x0, mode, options)
         return replace(run, detail=detail_of(walker, method, run))
     except NotCompiled as reason:
-        why = f"{reason}; it runs in Python on the compiled plant"
+        why = f"{reason}; it runs in Python, slower, on the compiled plant"
     # `result` stays None in continuous time, and where this second way cannot be compiled either
     (walker, references), result = compiled_plant(walker), None
     if walker.sampled:

@@ -203,12 +203,13 @@ class Tracer:
         of_engine = type(value).__module__.startswith(ENGINE)
         if of_engine or not (isinstance(value, Part) or is_part(value)):
             return self(value)
+        # a law of the package may say so itself: a line inside it would tell its user nothing
+        why = getattr(value, "in_python", "")
         # attributes without a dataclass: nobody can say which of them are numbers of the law
         if not is_part(value) and vars(value):
-            raise Located(
-                f"{type(value).__name__} cannot be compiled: it is no dataclass; write @dataclass(frozen=True) "
-                "above it"
-            )
+            why = "it is no dataclass; write @dataclass(frozen=True) above it"
+        if why:
+            raise Located(f"{type(value).__name__} cannot be compiled: {why}")
         fields = content(value) if is_part(value) else {}
         fields = {name: self.on_symbols(x) for name, x in fields.items()}
         return with_content(value, fields, self.twin(type(value)))

@@ -61,6 +61,13 @@ def halved(s: Scenario, walker: Walker) -> Scenario:
     return s.model_copy(update={"ground": ground, "run": run.model_copy(update=values)})
 
 
+def step_options(walk: Walk, half: Walk) -> str:
+    """The options by which a command walks the scenario of `walk` with the steps of `half`, which `halved`
+    gave."""
+    given, finer = (w.scenario.dotted() if w.scenario else {} for w in (walk, half))
+    return " ".join(f"--set {name}={x:g}" for name, x in finer.items() if given.get(name) != x)
+
+
 def walk(
     walker: Walker,
     gait: Gait | None = None,

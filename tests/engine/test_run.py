@@ -596,6 +596,16 @@ class Interpolates(Stateless):
         return super().output(s, m) * np.interp(m.t, (0.0, 1.0), (1.0, 0.9))
 
 
+class Checks(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) * (1.0 if np.isfinite(m.q).all() else 0.9)
+
+
+class Turns(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) + 0.0 * np.arctan2(m.t, 1.0)
+
+
 @dataclass(frozen=True)
 class Logs(Stateless):
     kept: list = field(default_factory=list)
@@ -626,6 +636,8 @@ IN_PYTHON = {
     LooksUp: "looks a number up",
     Rounds: "int()",
     Interpolates: "turns a number into a float",
+    Checks: ": a function or operator there has no compiled form;",
+    Turns: ": a function or operator there has no compiled form;",
     Logs: "changes a list",
     Noisy: "uses a Generator",
 }

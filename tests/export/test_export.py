@@ -180,7 +180,11 @@ def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
     share = Share(walker.controller.reference, share=np.nan)
     for scenario, word in [
         (ba.Scenario("NPD"), "ContinuousTime"),
-        (ba.Scenario("CLF-QP", hardware="ideal"), r"CLFQPController.output .* cannot be compiled"),
+        (
+            ba.Scenario("CLF-QP", hardware="ideal"),
+            "cannot be compiled: it solves a quadratic program",
+        ),
+        (ba.Scenario("output NPD", hardware="ideal"), "cannot be compiled: it asks LAPACK"),
         (replace(walker, sensors=Own()), "sensor Own does not say"),
         (replace(walker, sensors=Other()), "the sensors are Other, expected Sensors or None"),
         (replace(walker, controller=share), r"parameter .*share of the scenario is NaN"),

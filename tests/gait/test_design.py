@@ -6,6 +6,7 @@ a slope of 0.06 rad.
 
 from __future__ import annotations
 
+import re
 import shutil
 import signal
 from dataclasses import replace
@@ -165,6 +166,20 @@ def test_legs_without_knees_walk_when_scuffing_is_allowed() -> None:
     found = design_gait("three_link", 0.9, 0.6, limits=StepLimits(clearance=None))
     assert found.gap < 1e-6
     assert found.speed == pytest.approx(0.9, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("clearance", "text"),
+    [
+        (-3.5e-5, "-0.035 mm at the least, between"),
+        (-4e-8, "0 mm at the"),
+        (0.0123, "12.3 mm at the"),
+    ],
+)
+def test_a_clearance_that_is_printed_as_zero_has_no_sign(level, clearance, text) -> None:
+    """A foot that is 35 um below the ground in mid-step is printed so; 0.04 um [m] is no height at all."""
+    made_up = replace(level, certificate=replace(level.certificate, clearance=clearance))
+    assert re.search(rf"foot clearance +{text}", made_up.text())
 
 
 def test_a_gait_turns_no_faster_than_the_urdf_states_of_either_leg(tmp_path) -> None:

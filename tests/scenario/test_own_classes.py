@@ -108,6 +108,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
         ({"controller.name": "NPD", "controller.Kp": 0.1}, "did you mean 'K_p'"),
         ({"controller": "OWN:Lawless"}, "Lawless has no method output"),
         ({"controller": "OWN:Needy"}, "needs stiffness; give controller.stiffness"),
+        ({"controller": "finite time"}, "give controller.alpha, controller.eps"),
         (
             {"controller": "OWN:Mine", "controller.gian": 1.0},
             "controller.gian.*did you mean 'gain'",

@@ -127,7 +127,7 @@ class ObserverReport(OnHardware):
         ripple = f"{self.ripple:.4g} N m rms"
         noise = f"one encoder count makes {ripple}, {part} the limit of {limit:g} N m"
         # sampled_margins: (unknown delay, known delay)
-        margin = microseconds(self.sampled_margins[int(k.known)])
+        margin = milliseconds(self.sampled_margins[int(k.known)])
         bears = f"with the model's kappa its delay margin at this period is {margin}"
         # _unstable, _use: sentences about the kappa that makes it unstable, and about the error it leaves
         facts = [noise] if math.isfinite(share) else []
@@ -144,9 +144,9 @@ class ObserverReport(OnHardware):
 
     def _unstable(self) -> str:
         """Sentence with the ratio of the robot's kappa to the model's that makes the sampled loop unstable."""
-        (ratio, radius), late = self.weakest, 1e6 * self.hardware.delay
+        (ratio, radius), late = self.weakest, 1e3 * self.hardware.delay
         return (
-            f"with a delay of {late:.0f} us and {ratio:g} times the model's kappa the sampled loop is unstable,"
+            f"with a delay of {late:g} ms and {ratio:g} times the model's kappa the sampled loop is unstable,"
             f" spectral radius {radius:.4g} (stability is asked for from {KAPPA_RATIOS[0]:g} to "
             f"{KAPPA_RATIOS[-1]:g} times)"
         )
@@ -184,16 +184,16 @@ class ObserverReport(OnHardware):
     def _stability(self) -> _Section:
         """Table of delay margins and largest periods, for an unknown and for a known delay."""
         margins = [self.loop.delay_margin(known) for known in (False, True)]
-        loop, period = self.sampled(), microseconds(self.hardware.period)
+        loop, period = self.sampled(), milliseconds(self.hardware.period)
         rows = [
-            ("delay margin, continuous", *(microseconds(m.delay) for m in margins)),
+            ("delay margin, continuous", *(milliseconds(m.delay) for m in margins)),
             ("  root on the axis at", *(of_stable(m.frequency, "rad/s") for m in margins)),
-            (f"delay margin, period {period}", *map(microseconds, self.sampled_margins)),
+            (f"delay margin, period {period}", *map(milliseconds, self.sampled_margins)),
         ]
         for name, late in (("no delay", 0.0), ("a delay of one period", 1.0)):
             # without a delay there is nothing to know, and both columns have the same loop
             known = (replace(loop, known=k and late > 0.0) for k in (False, True))
-            periods = (microseconds(largest_period(one, late)) for one in known)
+            periods = (milliseconds(largest_period(one, late)) for one in known)
             rows.append((f"largest period, {name}", *periods))
         title = "Stability of the linear loop, kappa as in the model"
         return _Section(title, ("", "unknown delay", "known delay"), tuple(rows))
@@ -230,7 +230,7 @@ class ObserverReport(OnHardware):
             if math.isnan(r.bandwidth):
                 rows.append((str(r.m), "none", "", "", "", ""))
                 continue
-            margin, bandwidth = microseconds(r.delay_margin), f"{r.bandwidth:.4g} rad/s"
+            margin, bandwidth = milliseconds(r.delay_margin), f"{r.bandwidth:.4g} rad/s"
             noise, error = f"{r.ripple:.3g} N m", f"{r.rejection:.3g}"
             rows.append((str(r.m), bandwidth, r.because, noise, margin, error))
         rows.append(("none", "", "", "", "", f"{without_observer(self.gains):.3g}"))
@@ -241,9 +241,9 @@ class ObserverReport(OnHardware):
         return _Section(title, ALLOWED, tuple(rows))
 
 
-def microseconds(seconds: float) -> str:
-    """Text of a time [s] in microseconds: "no limit found" if infinite, "unstable" for NaN."""
-    return of_stable(1e6 * seconds, "us")
+def milliseconds(seconds: float) -> str:
+    """Text of a time [s] in milliseconds: "no limit found" if infinite, "unstable" for NaN."""
+    return of_stable(1e3 * seconds, "ms")
 
 
 def of_stable(number: float, unit: str) -> str:
