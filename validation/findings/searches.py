@@ -119,7 +119,7 @@ def search_at(
         )
 
     # what each search had chosen before its last doubling
-    path = out.with_suffix(".json")
+    path = folder / f"{out.name}.json"
     if not path.exists():
         chosen = {k: x.selected[0].objective for k, x in carried(most - 1).choices.items()}
         path.write_text(json.dumps(chosen))
