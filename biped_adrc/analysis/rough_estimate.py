@@ -298,7 +298,10 @@ def rough_estimate(
     found = np.moveaxis(np.reshape(steps(cases), (*grid, -1)), -1, 0)
     reached = found[0][:, grid[1] // 2]
     y = np.where(np.isnan(reached), y, reached)
-    result = replace(empty, y=y, following=found[1], numbers=found[2:])
+    # y has to rise: a step that comes to no middle stands at the y that its rates would give with an exact
+    # model, which a late controller can put above that of a faster step
+    rises = np.append(y[:-1] < np.minimum.accumulate(y[::-1])[-2::-1], True)
+    result = replace(empty, y=y[rises], following=found[1][rises], numbers=found[2:, rises])
     # twice the distance of two heights, as H may lie anywhere between the first two of them
     finer = max(4.0 * (H := result.reach().height), 4.0 * highest / (grid[1] - 1))
     if H > _FINEST and finer < 0.9 * highest:

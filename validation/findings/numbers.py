@@ -189,9 +189,10 @@ def versions() -> str:
         return "; ".join(f"{r['hash']} of {r['date']}, {r['what']}" for r in csv.DictReader(file))
 
 
-def micro(at: Place) -> str:
-    """The median error in urad."""
-    return f"{1e6 * statistics.alone(side_of(at, PUSH), 'error', DRAWN).value:.2g} µrad"
+def error_in_words(at: Place) -> str:
+    """The median error under the push, in mrad, or in urad where it is small."""
+    e = statistics.alone(side_of(at, PUSH), "error", DRAWN).value
+    return f"{1e6 * e:.2g} µrad" if e < 1e-4 else f"{1e3 * e:.2g} mrad"
 
 
 def compared(one: Place, other: Place, condition: str = PUSH, measure: str = "error") -> str:
@@ -222,6 +223,7 @@ def stops() -> Names:
     asked = {at: best_row(at)["stop"].partition(";")[0] for at in sides}
     some = [f"{at[-1]} ({x})" for at, x in asked.items() if x.startswith("not tuned")]
     gains = {place_of(r): gain(place_of(r)) for r in best}
+    still = [at for at in dict.fromkeys(sides) if gains[at] >= ENOUGH]
     return Names(
         count=len(best),
         limit=sum("1 ms more" in x for x in tuned),
@@ -229,8 +231,7 @@ def stops() -> Names:
         ground=" of ".join(map(str, words)),
         asked=", ".join(dict.fromkeys(some)).replace("not tuned: ", "") or "none",
         gaining=sum(x >= ENOUGH for x in gains.values()),
-        sides=", ".join(f"{', '.join(at)} {gains[at]:.1%}" for at in dict.fromkeys(sides)),
-        asked_gaining=sum(gains[at] >= ENOUGH for at in dict.fromkeys(sides)),
+        sides="; ".join(f"{', '.join(at)} by {gains[at]:.1%}" for at in still) or "none",
         asked_count=len({*sides}),
     )
 

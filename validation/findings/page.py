@@ -27,13 +27,13 @@ from validation.findings.numbers import (
     by_controller,
     by_name,
     compared,
+    error_in_words,
     failures,
     feasible,
     fine,
     gains,
     largest_force,
     margin,
-    micro,
     of_soft,
     orders,
     question,
@@ -121,8 +121,8 @@ def fields() -> dict[str, Any]:
         "size": Names(
             m1=sizes((*rabbit, "m = 1")),
             npd=sizes((*rabbit, "NPD")),
-            m1x=micro((*exact, "m = 1")),
-            npdx=micro((*exact, "NPD")),
+            m1x=error_in_words((*exact, "m = 1")),
+            npdx=error_in_words((*exact, "NPD")),
         ),
         "push": Names(
             m1=fine((*rabbit, "m = 1"), PUSH),
@@ -142,15 +142,23 @@ def fields() -> dict[str, Any]:
         "exact": Names(
             b0m=compared((*exact, "ADRC b0"), (*exact, "m = 1")),
             st=compared((*exact, "super twisting"), (*exact, "NPD")),
+            st_value=compared((*exact, "super twisting"), (*exact, "NPD")).partition(" ")[0],
         ),
         "ground": Names(
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
+            npd=fine(of_ground, "10 mm"),
+            npd_error=error_in_words(of_ground),
+            m1=fine((*of_ground[:3], "m = 1"), "10 mm"),
+            m1_error=error_in_words((*of_ground[:3], "m = 1")),
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
+            m1_push=fine((*rough, "m = 1"), PUSH),
+            npd_push=fine((*rough, "NPD"), PUSH),
             npd=compared((*rough, "m = 1"), (*rough, "NPD")),
             npd_value=compared((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
             pid=compared((*rough, "m = 1"), (*rough, "PID")),
+            pid_value=compared((*rough, "m = 1"), (*rough, "PID")).partition(" ")[0],
             b0=compared((*rough, "ADRC b0"), (*rough, "m = 1")),
         ),
         "margin": Names(
@@ -159,6 +167,8 @@ def fields() -> dict[str, Any]:
             count=len(rows("margins")),
         ),
         "gait": Names(
+            rough10=feasible(ground["rough"], "10 mm"),
+            level10=feasible(ground["v0.6"], "10 mm"),
             rough20=feasible(ground["rough"], "20 mm"),
             level20=feasible(ground["v0.6"], "20 mm"),
             b0=fine((*rough, "ADRC b0"), "10 mm"),
