@@ -23,8 +23,8 @@ COUNT = 2.0 * math.pi / 8192
 """One count of RABBIT's encoders [rad]."""
 LEG = 0.8
 """Length of RABBIT's leg [m]: an error e of a hip moves the foot by 0.8 e."""
-DRAWN = 2000
-"""Draws of an interval in a picture."""
+DRAWN = 10_000
+"""Draws of an interval beside those of the six questions."""
 PUSH, HEIGHTS = "80 N m", ("5 mm", "10 mm", "20 mm")
 LOADS = (PUSH, "hip, 2 N", "trunk +30 %", "masses x 0.7", "masses x 1.5", "1 ms more")
 Place = tuple[str, str, str, str]
@@ -220,8 +220,9 @@ def stops() -> Names:
     words = (sum(r["tuning"] == "ground" for r in some) for some in (untuned, best))
     questions = statistics.questions()["question"]
     sides: list[Place] = [tuple(q[k]) for q in questions for k in ("one", "other")]
-    asked = {at: best_row(at)["stop"].partition(";")[0] for at in sides}
-    some = [f"{at[-1]} ({x})" for at, x in asked.items() if x.startswith("not tuned")]
+    titles = [("rabbit", "rough", "tracking", c) for c in ("m = 1", "NPD", "PID")]
+    asked = {at: best_row(at)["stop"].partition(";")[0] for at in (*sides, *titles)}
+    some = [f"{at[-1]} on {at[1]} ({x})" for at, x in asked.items() if x.startswith("not tuned")]
     gains = {place_of(r): gain(place_of(r)) for r in best}
     still = [at for at in dict.fromkeys(sides) if gains[at] >= ENOUGH]
     return Names(
@@ -233,7 +234,43 @@ def stops() -> Names:
         gaining=sum(x >= ENOUGH for x in gains.values()),
         sides="; ".join(f"{', '.join(at)} by {gains[at]:.1%}" for at in still) or "none",
         asked_count=len({*sides}),
+        npd=gained(best_row(sides[1])),
+        m1=gained(best_row(sides[0])),
     )
+
+
+def gained(row: dict[str, str]) -> str:
+    """What the last doubling of a search gained, on the walks of the search."""
+    return row["stop"].rpartition("gained ")[2]
+
+
+def pairs(one: Place, other: Place) -> list[float]:
+    """The ratio of errors under the push for each pair of searches of two controllers."""
+    a, b = side_of(one, PUSH), side_of(other, PUSH)
+    return [
+        statistics.compare(Side(np.ones(1), x[None]), Side(np.ones(1), y[None]), "error", 1).value
+        for x in a.errors
+        for y in b.errors
+    ]
+
+
+def small_and_robust(at: Place) -> tuple[str, str]:
+    """The search with the least error of those at a place that walk 10 mm as often as the best one of a
+    controller: "m = 1 #2 walks 18", and its error.
+    """
+    least = fine(at, "10 mm")
+    found = []
+    for controller in PLAN["controllers"]:
+        here = (*at[:3], controller)
+        walked, pushed = (side_of(here, condition).errors for condition in ("10 mm", PUSH))
+        counts = np.isfinite(walked).sum(axis=1)
+        found += [
+            (float(np.median(e)), f"{controller} #{i} walks {n}")
+            for i, (n, e) in enumerate(zip(counts, pushed, strict=True), 1)
+            if n >= least
+        ]
+    e, words = min(found)
+    return words.removeprefix("ADRC "), f"{1e3 * e:.2g} mrad"
 
 
 def place_of(row: Mapping[str, str]) -> Place:

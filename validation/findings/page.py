@@ -36,6 +36,8 @@ from validation.findings.numbers import (
     margin,
     of_soft,
     orders,
+    pairs,
+    place_of,
     question,
     ratios,
     rows,
@@ -44,6 +46,7 @@ from validation.findings.numbers import (
     side,
     side_of,
     sizes,
+    small_and_robust,
     soft,
     spread,
     stops,
@@ -107,13 +110,18 @@ def fields() -> dict[str, Any]:
     rough = ("rabbit", "rough", "tracking")
     ground = {gait: ("rabbit", gait, "ground", "m = 1") for gait in PLAN["gaits"]}
     of_ground, of_tracking = ("exact", "v0.6", "ground", "NPD"), (*exact, "NPD")
+    best = comparison.best_of(rows("settings"))
+    every_pair = pairs((*rabbit, "m = 1"), (*rabbit, "NPD"))
     plans = (PLAN["search"], *PLAN["search_more"].values())
     budgets, doublings = ([x[k] for x in plans] for k in ("budget", "doublings"))
-    walked_10 = [
-        fine((hardware, "v0.6", "ground", c), "10 mm")
-        for hardware in PLAN["hardware"]
-        for c in PLAN["controllers"]
-    ]
+    walked_10, so_tuned = (
+        [
+            fine((hardware, "v0.6", tuning, c), "10 mm")
+            for hardware in PLAN["hardware"]
+            for c in PLAN["controllers"]
+        ]
+        for tuning in ("ground", "tracking")
+    )
     return {
         **{f"q{i}": question(*x) for i, x in enumerate(answers(), 1)},
         "walks": statistics.questions()["walks"],
@@ -135,8 +143,9 @@ def fields() -> dict[str, Any]:
         "limit": Names(
             npd=fine((*rabbit, "NPD"), comparison.LATER),
             m1=fine((*rabbit, "m = 1"), comparison.LATER),
+            least=min(fine(place_of(r), comparison.LATER) for r in best),
         ),
-        "range": Names(low=min(walked_10), high=max(walked_10)),
+        "range": Names(low=min(walked_10), high=max(walked_10), tracking=max(so_tuned)),
         "failed": failures(),
         "stop": stops(),
         "exact": Names(
@@ -146,13 +155,12 @@ def fields() -> dict[str, Any]:
         ),
         "ground": Names(
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
-            npd=fine(of_ground, "10 mm"),
-            npd_error=error_in_words(of_ground),
-            m1=fine((*of_ground[:3], "m = 1"), "10 mm"),
-            m1_error=error_in_words((*of_ground[:3], "m = 1")),
+            small=small_and_robust(of_ground)[0],
+            small_error=small_and_robust(of_ground)[1],
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
+            push=compared((*rough, "m = 1"), (*rough, "NPD"), PUSH, "share"),
             m1_push=fine((*rough, "m = 1"), PUSH),
             npd_push=fine((*rough, "NPD"), PUSH),
             npd=compared((*rough, "m = 1"), (*rough, "NPD")),
@@ -184,7 +192,12 @@ def fields() -> dict[str, Any]:
             npd=largest_force("NPD", "exact sensors"),
             step=largest_force("footstep, 0.25 m", "exact sensors"),
         ),
-        "spread": Names(npd=spread((*rabbit, "NPD")), m1=spread((*rabbit, "m = 1"))),
+        "spread": Names(
+            npd=spread((*rabbit, "NPD")),
+            m1=spread((*rabbit, "m = 1")),
+            low=f"{min(every_pair):.2f}",
+            high=f"{max(every_pair):.2f}",
+        ),
         "heights": Names(
             level=walks_of("reset, v0.6", "20 mm"),
             npd=walks_of("NPD, rough", "20 mm"),
