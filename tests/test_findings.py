@@ -135,7 +135,7 @@ def test_the_numbers_of_the_readme_are_those_of_the_page():
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
-    """Of 20 grounds v0.6 falls or stalls on some and walks few feasibly; the gait for rough ground walks all."""
+    """Of 20 grounds v0.6 falls or stalls on some and walks few feasibly; the other gait walks all."""
     monkeypatch.syspath_prepend(str(comparison.ROOT / "docs"))
     pictures = importlib.import_module("make_pictures")
     left, right = (pictures.outcomes(gait) for gait in ("v0.6", "rough"))

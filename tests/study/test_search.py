@@ -408,8 +408,8 @@ walks = { search = { seeds = [0] }, choice = { seeds = [1] }, test = { seeds = [
 
 
 def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
-    """The search makes at most 9 walks: 3 candidates, the finalist and the case itself on the second set, two
-    on the third.
+    """The search makes at most 16 walks: 3 candidates; on the second set 8 finalists, the case itself
+    and two beside the choice; two on the third.
 
     The objectives are those of a plain study of the same gains.
     """
@@ -418,7 +418,7 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
 
     line = ["study", path, "--out", out, "--workers", "1"]
     dry = command(*line, "--dry-run").splitlines()
-    assert dry[0] == "walks: at most 9 walks"
+    assert dry[0] == "walks: at most 16 walks"
     assert dry[1] == "Walked once, as nothing that acts is drawn from the seed: walks."
     command(*line)
     # errors, their ratio, and the path of the search
