@@ -7,7 +7,7 @@ It is made of a library and two fits.
     curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
     steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 4,
                and sigma^2 of the periodic walks by their mean speed, of degree 6
-    reach      least and largest speed of the member on which a step may end, of degree 4 in (v, L)
+    ends       least and largest speed of the member on which a step may end, of degree 4 in (v, L)
 
     v, L           speed [m/s] and step length [m]; a member of the family is the gait of one pair (v, L)
     Theta          phase of a gait, Theta = c q [rad]; Theta+ where a step begins, Theta- where it ends
@@ -165,7 +165,7 @@ def design_family(
     to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
     _, L, speed, y = np.transpose(cycles)
     of_cycle = PolynomialMap.fit(np.column_stack((speed, L)), y[:, np.newaxis], CYCLE_DEGREE)
-    maps = StepMap(to_impact, to_decision, of_cycle, reach(biped, family, cycles))
+    maps = StepMap(to_impact, to_decision, of_cycle, step_ends(biped, family, cycles))
     return replace(family, steps=maps, members=members)
 
 
@@ -258,8 +258,10 @@ class TwoSteps:
         return bool(grip and np.max(np.abs(orbit.u)) <= limits.torque)
 
 
-def reach(biped: Biped, family: GaitFamily, cycles: Sequence[tuple[float, ...]]) -> PolynomialMap:
-    """`StepMap.reach`, fitted to the periodic walks `cycles`: at each of them it lies between the speeds that
+def step_ends(
+    biped: Biped, family: GaitFamily, cycles: Sequence[tuple[float, ...]]
+) -> PolynomialMap:
+    """`StepMap.ends`, fitted to the periodic walks `cycles`: at each of them it lies between the speeds that
     are _SHARES of the way from v to the extreme ones (`_extreme`).
     """
     found = []

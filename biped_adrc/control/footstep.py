@@ -28,7 +28,7 @@ next step is
 
 Without the correction the error y - y_0 is delta^2 times as large at the next decision, with it `pole` times.
 y_next is kept between the y of the cycles of the family's slowest and fastest member, and v+ between the least
-and the largest speed at which a step from v- may end (`StepMap.reach`): beyond it the foot slips, or a motor is
+and the largest speed at which a step from v- may end (`StepMap.ends`): beyond it the foot slips, or a motor is
 too weak. The map from step to step is used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular
 momentum about the contact as its state (Gong, Grizzle, arXiv 2008.10763).
 
@@ -306,7 +306,7 @@ class Footstep(OuterLoop):
         low, high = (steps.cycle_square(v, ahead) for v in (slowest, fastest))
         goal = np.minimum(np.maximum(goal, low), high)
         # to stay on the member v- is always allowed
-        least, most = steps.reach(np.array((x.begin, x.L)))
+        least, most = steps.ends(np.array((x.begin, x.L)))
         v = self.zero(lambda v: following(v) - goal)
         return np.minimum(np.maximum(v, np.minimum(least, x.begin)), np.maximum(most, x.begin))
 

@@ -112,7 +112,7 @@ class StepMap(Part):
     of_cycle: PolynomialMap
     """(mean speed [m/s], L) of a periodic walk -> y at its decision; the fit of the curves moves the mean speed
     of the member v by some per cent from v."""
-    reach: PolynomialMap
+    ends: PolynomialMap
     """(v, L) -> least and largest speed [m/s] of the member on which a step of length L may end that begins on
     the member v: beyond them the foot would slip, or a motor be too weak."""
 

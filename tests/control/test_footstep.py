@@ -247,7 +247,7 @@ def test_the_robot_slows_down_over_several_steps(biped, slow):
     assert walk.feasibility.outcome == "feasible"
     family = walk.walker.controller.family
     own = [walk.walker.split_state(arc.x[-1])[2].own for arc in walk.trajectory.arcs]
-    room = [w.end - family.steps.reach(np.array((w.begin, w.L)))[0] for w in own]
+    room = [w.end - family.steps.ends(np.array((w.begin, w.L)))[0] for w in own]
     assert min(room) == pytest.approx(0.0, abs=1e-9)
     assert at_once(biped, slow, walk).feasibility.outcome != "feasible"
 
@@ -257,7 +257,7 @@ def at_once(biped, gait, walk):
     law, starts = walk.walker.controller, len(walk.trajectory.arcs)
     ends = np.array([[law.family.low[0], law.family.high[0]]])
     every = PolynomialMap(((0, 0),), ends, law.family.low, law.family.high)
-    law = replace(law, family=replace(law.family, steps=replace(law.family.steps, reach=every)))
+    law = replace(law, family=replace(law.family, steps=replace(law.family.steps, ends=every)))
     walker = ba.Walker(biped, law, timing=CLOCK, torque_limit=150.0)
     return ba.walk(walker, gait, impacts=starts - 1)
 
@@ -268,7 +268,7 @@ def test_the_robot_speeds_up_over_several_steps(biped, slow):
     assert walk.feasibility.outcome == "feasible"
     own = [walk.walker.split_state(arc.x[-1])[2].own for arc in walk.trajectory.arcs]
     steps = walk.walker.controller.family.steps
-    room = [steps.reach(np.array((w.begin, w.L)))[1] - w.end for w in own]
+    room = [steps.ends(np.array((w.begin, w.L)))[1] - w.end for w in own]
     assert min(room) == pytest.approx(0.0, abs=1e-9)
     assert at_once(biped, slow, walk).feasibility.outcome != "feasible"
 
@@ -280,7 +280,7 @@ def test_a_step_may_end_where_ground_and_motors_bear_it(biped, name):
     """
     family, limits = load_family(name, biped), ba.Limits().of(biped.description)
     for v, L, end, beyond in ((0.95, 0.34, 0, -0.25), (1.0, 0.4, 0, -0.25), (0.8, 0.24, 1, 0.1)):
-        last = family.steps.reach(np.array((v, L)))[end]
+        last = family.steps.ends(np.array((v, L)))[end]
         assert family.low[0] < min(last, last + beyond) < max(last, last + beyond) < family.high[0]
         y = family.steps.cycle_square(v, L)
         ends = (v, last, last + beyond)
