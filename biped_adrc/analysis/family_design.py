@@ -1,6 +1,6 @@
 """Design of a family, which has a gait for every speed and step length within a range.
 
-It is made of a library and two fits.
+It is made of a library and three fits.
 
     library    one gait for each pair of speed and step length, by `optimise`, with limits that leave a reserve,
                and for rough ground where that is asked for

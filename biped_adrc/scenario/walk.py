@@ -62,10 +62,11 @@ def halved(s: Scenario, walker: Walker) -> Scenario:
 
 
 def step_options(walk: Walk, half: Walk) -> str:
-    """The options by which a command walks the scenario of `walk` with the steps of `half`, which `halved`
-    gave."""
-    given, finer = (w.scenario.dotted() if w.scenario else {} for w in (walk, half))
-    return " ".join(f"--set {name}={x:g}" for name, x in finer.items() if given.get(name) != x)
+    """The options with which a command walks the scenario of `walk` at the steps of `half`, which is the walk
+    at half of them (`halved`).
+    """
+    whole, finer = (w.scenario.dotted() if w.scenario else {} for w in (walk, half))
+    return " ".join(f"--set {name}={x:g}" for name, x in finer.items() if whole.get(name) != x)
 
 
 def walk(

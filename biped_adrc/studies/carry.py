@@ -153,15 +153,9 @@ class _Searched:
         search, base, (result, gain, ends) = self.search, self.study.values_of(case), last
         walk = partial(self.walk_case, case)
         failure = self.failure(result, case, "search")
-        again = list[Candidate]()
-        for few in () if failure else _finalists(search, result):
-            # the same candidates, judged by their walks on the second set
-            pairs = zip(few, walk("choice", few), strict=True)
-            again += [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
-            # the case itself, number 0, is none of those that the search found
-            if not few or any(c.feasible and c.number for c in again):
-                break
-        failure = failure or self.failure(again, case, "choice")
+        if not failure:
+            again = self.finalists(base, result, partial(walk, "choice"))
+            failure = self.failure(again, case, "choice")
         if not failure:
             again = search.ranked(again)
             stop = self.stop(base, again[0], len(result), partial(walk, "choice"))
@@ -171,6 +165,21 @@ class _Searched:
             return Choice(tuple(result), tuple(again), stop)
         self.runner.tell(failure)
         return failure
+
+    def finalists(self, base: Values, found: Sequence[Candidate], walk: WalkAll) -> list[Candidate]:
+        """The finalists of a search, judged by their walks on the second set: the best few of the candidates
+        found, and the next few while none of them keeps the limits there.
+
+        walk: walks candidates on the second set.
+        """
+        again = list[Candidate]()
+        for few in _finalists(self.search, found):
+            pairs = zip(few, walk(few), strict=True)
+            again += [self.search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
+            # the case itself, number 0, is none of those that the search found
+            if not few or any(c.feasible and c.number for c in again):
+                break
+        return again
 
     def stop(self, base: Values, c: Candidate, number: int, walk: WalkAll) -> str:
         """What stopped the search at the chosen candidate, by the walks of the settings beside it.

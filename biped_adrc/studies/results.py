@@ -168,11 +168,12 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
     there, here = (flat(json.loads(x)) for x in (old, text))
     # empty where all are the same, and then so is the result
     other = differences(json.loads(before), versions)
-    more = {**there, _MORE: here.get(_MORE)} == here and here[_MORE] > there[_MORE]
-    if key != study.hash and not (more and not other):
+    alike = not other and {**there, _MORE: here.get(_MORE)} == here
+    more = alike and here.get(_MORE, 0) > there.get(_MORE, 0)
+    if key != study.hash and not more:
         why = differences(there, here) or "its values are the same, and its hash is not theirs"
         return f"holds the rows of the study '{there['name']}', another one: {why}"
-    if more and not other:
+    if more:
         # its candidates are the first ones of this search, which chooses and tests anew
         with db:
             db.execute("DELETE FROM walks WHERE json_extract(at, '$.set') <> 'search'")

@@ -3,7 +3,8 @@
     python -m validation.findings.searches out [exact-v0.6-tracking ..]
 
 A place is (hardware, gait, tuning). What is chosen is written to settings.csv, one row for each search, with
-what stopped it. A search that was stopped goes on with the same command.
+what stopped it, and its objective on the walks of choice at the end and before the last doubling. A search
+that was stopped goes on with the same command.
 """
 
 from __future__ import annotations
@@ -133,7 +134,7 @@ def search_at(
 
 
 def row_of(case: str, found: Results) -> dict[str, Any]:
-    """What was found for a case."""
+    """The columns of a case: its setting, its objective on the walks of choice, and what stopped its search."""
     controller, _, number = case.partition(" #")
     row: dict[str, Any] = {"controller": controller, "search": int(number)}
     if case not in found.choices:
