@@ -25,7 +25,7 @@ print(len(x := leaves(get_command(app))), sum(p.param_type_name == "option" for 
 """
 GOALS = {
     "code lines of the package": (
-        28_000,
+        29_900,
         "imports and texts below fields are 5 300 of them; the rest are features that stay",
     ),
     "modules": (
@@ -37,11 +37,14 @@ GOALS = {
         16_500,
         "each error, law and feature has its proof, and of faults at random nine in ten are noticed",
     ),
-    "... of benchmarks and validation": (2_700, ""),
-    "... of scripts in docs": (500, ""),
+    "... of benchmarks and validation": (
+        2_700,
+        "searches, six questions and eleven findings are made by code, and three more publications are walked",
+    ),
+    "... of scripts in docs": (500, "the API as text, the notebook, and README's sampled headline"),
     "leaf commands": (18, ""),
     "options": (113, ""),
-    "make targets": (10, ""),
+    "make targets": (11, ""),
     "extras": (7, ""),
     "dependencies": (14, "platformdirs came in place of code for folders of the user's"),
     "public names": (86, ""),
@@ -49,10 +52,10 @@ GOALS = {
     "words of docs": (32_000, ""),
     "data in docs [MB]": (2.0, ""),
     "raise statements": (460, "each names a mistake of a user's and is proved by a test"),
-    "lines of control": (2_750, ""),
+    "lines of control": (2_750, "PID as flown and ADRC with b_0 alone came for the comparison"),
     "... of hardware": (900, ""),
-    "... of closed_loop": (1_800, ""),
-    "names in several modules": (40, ""),
+    "... of closed_loop": (1_800, "a signal of a sample instant has its text beside it"),
+    "names in several modules": (40, "29 are the march's twins, in Python and compiled"),
 }
 """The most that each should be, and why it is more where it is."""
 DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
