@@ -63,8 +63,7 @@ class Measurement(NamedTuple):
     terms: Reduction
     """D, Omega, kappa, xi and more of the nominal model at (q, v)."""
     body: BodyTerms | None = None
-    """G, C' q' (C' is a transpose) and the ground's force of the nominal model; None for a controller without
-    `needs_body`."""
+    """G, C' q' (C' a transpose) and the ground's force of the nominal model; None without `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
     """elsewhere(q, v), each (n,) [rad, rad/s] -> the measurement there, at this time; None outside a loop."""
     impulse: Array | None = None

@@ -103,8 +103,5 @@ class ReferenceReset(OuterLoop):
         a = reset_coefficients(np.where(bends, x, 1.0), rate, m.q_b - r.q_d, slope)
         return np.where(bends, a, 0.0)
 
-    def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        return self.own_start(h, after)
-
     def correction(self, w: Array) -> Correction:
         return ResetPolynomial(w, *self.range)
