@@ -248,16 +248,10 @@ def counted_in(walk: Walk, limits: Limits) -> WalkRow:
     """The columns of `counted` for a walk whose whole trajectory is stored; on soft ground those of the feet
     too, and with a detector of touchdowns those of its delays and faults.
     """
-    return {
-        **counted(
-            Nodes.of(walk.signals),
-            Nodes.of(walk.signals.before_fall),
-            walk.feasible_within(limits),
-            walk.soft,
-        ),
-        **(_on_the_ground(walk) if walk.soft else {}),
-        **({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict()),
-    }
+    nodes, tracked = Nodes.of(walk.signals), Nodes.of(walk.signals.before_fall)
+    row = counted(nodes, tracked, walk.feasible_within(limits), walk.soft)
+    row |= _on_the_ground(walk) if walk.soft else {}
+    return row | ({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict())
 
 
 def _on_the_ground(walk: Walk) -> WalkRow:
