@@ -78,11 +78,9 @@ class Support(Shown):
     mean_friction: float
     """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
-    """Largest depth of the swing foot below the straight lines between footholds [m], but near the ends of the
-    step."""
+    """Largest depth of the swing foot below the lines between footholds [m], but near the ends of the step."""
     riser: float
-    """The same where the ground is level up to a riser just before each foothold [m]: a harder ground, which
-    does not count."""
+    """The same on a harder ground, level up to a riser before each foothold [m], which does not count."""
     slip: float
     """Largest distance that a foot slips on soft ground [m]; 0 on the rigid plant."""
     missed_stone: float

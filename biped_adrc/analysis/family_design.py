@@ -51,8 +51,7 @@ CURVE_DEGREE, STEP_DEGREE, CYCLE_DEGREE = 4, 4, 6
 OF_LIBRARY = ("method", "curves", "minimised", "limits")
 """Entries of a gait's provenance that are the same for all gaits of the library."""
 _SAMPLES, _GRID = 1200, 11
-"""Number of random walking steps to which `StepMap` is fitted, and of speeds and of lengths of cycles; both
-count the same."""
+"""Number of random steps to which `StepMap` is fitted, and of speeds and lengths of cycles, of equal weight."""
 _NODES = 16
 """Number of Gauss nodes of each part of a step, before and after the decision (`control.footstep`)."""
 _HALVED = 8

@@ -38,8 +38,7 @@ from biped_adrc.studies.search import MOST_GROUPS, Candidate, Search, Walks
 from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, read_study, walk_names
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
-"""Candidates to be walked: number, values of the scenario, and the names that locate their walks (case,
-setting)."""
+"""Candidates to be walked: number, values of the scenario, names that locate their walks (case, setting)."""
 
 
 def study(

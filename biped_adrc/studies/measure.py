@@ -84,8 +84,7 @@ class Measure(Section):
     condition: str | None = None
     """The measure is of the walks under this condition alone; None for all."""
     counts: Literal["feasible", "made"] = "feasible"
-    """Which walks count with their number: the feasible ones, or all that made their last step; others rank
-    worst."""
+    """Walks that count with their number: feasible, or all that made their last step; others rank worst."""
 
     @property
     def sign(self) -> float:

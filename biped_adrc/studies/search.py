@@ -142,8 +142,7 @@ class Search(Section):
     finalists: int = Field(default=5, ge=1)
     """Candidates that are walked on the second set together."""
     seed: int = Field(default=0, ge=0)
-    """Seed of the sampler for the first case; the next one has this + 1, so that equal cases are several
-    searches."""
+    """Seed of the sampler for the first case, + 1 for the next: so equal cases are several searches."""
 
     @property
     def measures(self) -> tuple[Measure, ...]:
