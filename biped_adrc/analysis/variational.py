@@ -37,11 +37,11 @@ from biped_adrc.analysis.return_map import (
     after_impact,
     newton_step,
     not_converged,
-    sorted_eigenvalues,
 )
 from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.walker import Instant, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError, SimulationError, SingularError
+from biped_adrc.core.linear import sorted_eigenvalues
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
