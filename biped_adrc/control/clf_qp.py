@@ -39,8 +39,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.control.tracking import body_of, output_matrix
+from biped_adrc.control.base import Controller, Measurement, body_of
+from biped_adrc.control.tracking import output_matrix
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.errors import NotFiniteError
 from biped_adrc.core.linear import solve

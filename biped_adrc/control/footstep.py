@@ -43,10 +43,9 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Controller, Measurement, body_of
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
 from biped_adrc.control.reference_reset import ResetPolynomial, reset_coefficients
-from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import PositiveFloat, PositiveFloats
 from biped_adrc.core.errors import GaitError, ReachError
 from biped_adrc.core.part import derived, with_fields

@@ -45,9 +45,8 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.control.around import ContactWindow
-from biped_adrc.control.base import Measurement
+from biped_adrc.control.base import Measurement, body_of
 from biped_adrc.control.outer_loop import tracked_constraint
-from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.linear import solve_positive

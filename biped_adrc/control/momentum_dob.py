@@ -26,15 +26,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.tracking import (
-    TABLE_II,
-    Gains,
-    ObservingController,
-    body_of,
-    impulse_of,
-    tracking_torque,
-)
+from biped_adrc.control.base import Measurement, body_of, impulse_of, measured
+from biped_adrc.control.tracking import TABLE_II, Gains, ObservingController, tracking_torque
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint

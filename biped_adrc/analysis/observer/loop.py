@@ -91,7 +91,7 @@ class ObserverLoop:
     @property
     def frequencies(self) -> Array:
         """Grid of frequencies (GRID,) [rad/s], from far below the slowest pole to far above the fastest."""
-        (K_p, K_d), rates = first_gains(self.gains), np.abs(self.observer.poles)
+        (K_p, K_d), rates = self.gains.first, np.abs(self.observer.poles)
         slow, fast = min(rates.min(), np.sqrt(K_p)), max(rates.max(), K_d)
         return np.geomspace(0.01 * slow, 100.0 * fast, GRID)
 
@@ -104,7 +104,7 @@ class ObserverLoop:
     @cached_property
     def _feedback(self) -> Array:
         """Coefficients (3,) of the feedback's polynomial s^2 + K_d s + K_p, dimensionless."""
-        (K_p, K_d), w = first_gains(self.gains), self.observer.scale
+        (K_p, K_d), w = self.gains.first, self.observer.scale
         return np.array([1.0, K_d / w, K_p / w**2])
 
     def _Q(self, printed: bool = False) -> Array:
@@ -191,11 +191,6 @@ class ObserverLoop:
         return DelayMargin(float(delays[first]), float(at[first]))
 
 
-def first_gains(gains: Gains) -> tuple[float, float]:
-    """K_p [1/s^2] and K_d [1/s] of the first joint."""
-    return float(np.ravel(gains.K_p)[0]), float(np.ravel(gains.K_d)[0])
-
-
 SHORTEST, LONGEST = 1e-6, 0.1
 """Range of the periods that are tried for the largest stable one [s]."""
 RATIO = 1.05
@@ -268,7 +263,7 @@ class SampledLoop:
         o = self.observer.sampled(T)  # its sampled form, with L, Phi and Gamma
         correction = np.outer(o.L, e + n - Z[0])
         Z_k = Z + correction
-        K_p, K_d = first_gains(self.gains)
+        K_p, K_d = self.gains.first
         F = np.zeros(k)
         # F = T^2 (K_p, K_d / T, 1 / T^2), for Z = (x1^, T x2^, T^2 xi^, ..); without xi^ for m = 0, where k = 2
         F[:3] = (T**2 * np.array([K_p, K_d / T, T**-2]))[:k]
