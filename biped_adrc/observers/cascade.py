@@ -34,15 +34,8 @@ import numpy as np
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_count, check_positive
 from biped_adrc.core.types import Array, Indices
-from biped_adrc.observers.base import (
-    ChainObserver,
-    Estimate,
-    Observer,
-    ResetPolicy,
-    check_chain,
-    mean_bandwidth,
-)
-from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.observers.base import ChainObserver, Estimate, Observer, ResetPolicy, check_chain
+from biped_adrc.observers.gpi import GPIObserver, mean_bandwidth
 
 
 @dataclass(frozen=True)
