@@ -50,15 +50,7 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk_scenario
-from biped_adrc.studies.build import (
-    NO_WALK,
-    RAISED,
-    REFUSED,
-    PlainValues,
-    Trial,
-    scenario_of,
-    trial_of,
-)
+from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Trial, Values, scenario_of, trial_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
@@ -66,7 +58,7 @@ WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
-Function = Callable[[Sequence[PlainValues]], Sequence[Any]]
+Function = Callable[[Sequence[Values]], Sequence[Any]]
 """What workers run: from records (values of one walk each) to a row of plain values for each, in order."""
 JUDGED = (
     *("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "riser"),
@@ -83,7 +75,7 @@ a table is judged without it, by compiled loops beside which other threads run."
 
 
 def rows_of(
-    function: Function, records: Sequence[PlainValues], folders: Mapping[str, str] | None = None
+    function: Function, records: Sequence[Values], folders: Mapping[str, str] | None = None
 ) -> list[tuple[str, str | None]]:
     """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
@@ -104,7 +96,7 @@ def rows_of(
         return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
 
 
-def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[WalkRow]:
+def run_trials(records: Sequence[Values], aside: bool = False) -> list[WalkRow]:
     """Walk the records, and return a row with all columns for each, in their order. aside: whether rows have a
     value of the column `rounding`, for which a walk from a start beside the first one is made too.
 

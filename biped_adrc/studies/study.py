@@ -43,7 +43,7 @@ from biped_adrc.core.files import beside, reading
 from biped_adrc.core.registry import FOLDERS, is_own, top_of
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.scenario import Scenario, read_scenario
-from biped_adrc.studies.build import SEED, PlainValues, differ, scenario_of, trial_of, versions_of
+from biped_adrc.studies.build import SEED, Values, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Aim, Column, Limit, Measure
 from biped_adrc.studies.search import Search, Variable, WalkSets
 from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds, Sets
@@ -78,8 +78,8 @@ class Point(NamedTuple):
     """
 
     place: int
-    at: PlainValues
-    record: PlainValues
+    at: Values
+    record: Values
 
 
 class Study(Section):
@@ -184,9 +184,7 @@ class Study(Section):
         sets = () if self.search is None else self.search.walks
         return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
 
-    def seeded(
-        self, seeds: Sequence[int], at: PlainValues, undrawn: Undrawn
-    ) -> list[dict[str, int]]:
+    def seeded(self, seeds: Sequence[int], at: Values, undrawn: Undrawn) -> list[dict[str, int]]:
         """A table {"run.seed": seed} for each seed, that is for each walk. One empty table, for a single walk,
         where there are no seeds, or where case and condition in `at` are a pair of `undrawn`.
         """
