@@ -172,16 +172,10 @@ def _counts(t: Trial, walked: BatchWalk, aside: bool) -> WalkRow:
     plant = walker.plant
     n = None if walked.table is None else Nodes(walked.table, plant.n, plant.p)
     # NO_WALK: statuses of what was no walk
-    row: WalkRow = {
-        "status": status,
-        "detail": walked.detail,
-        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
-        "impacts": walked.impacts,
-        "t_end": walked.t_end,
-        "engine": walked.engine,
-        **_pace(t, walked, n),
-    }
+    row: WalkRow = {x: getattr(walked, x) for x in ("detail", "impacts", "t_end", "engine")}
+    row |= {"status": status, **_pace(t, walked, n)}
     if status not in NO_WALK:
+        row["survived"] = int(walked.status is Status.COMPLETED)
         # until `counted` has looked at the nodes: not feasible, as if all limits, named in REASONS, were broken
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
         row |= {"rounding": walk_scenario(s).rounding()} if aside and t.loop is None else {}
