@@ -279,11 +279,6 @@ class SampledLoop:
         changes = np.vstack((rate + push, kick, dZ, sent[1:] - line))
         return StepMatrices(changes[:, :size], changes[:, size:], a[:size], a[size:])
 
-    @property
-    def matrix(self) -> Array:
-        """The matrix 1 + M (s, s) of X_(k+1) = (1 + M) X_k, in the scaled variables of `step`."""
-        return self.step.M + np.eye(len(self.step.M))
-
     @cached_property
     def spectral_radius(self) -> float:
         """Largest |eigenvalue| over one period; below 1 for a stable loop."""
@@ -303,8 +298,8 @@ class SampledLoop:
         if not self.stable:
             return np.nan
         # column 1 of the inputs (T^2 xi, n) is n; the output is T^2 a
-        _, B, C, D = self.step
-        P = covariance(self.matrix, np.outer(B[:, 1], B[:, 1]))
+        M, B, C, D = self.step
+        P = covariance(M + np.eye(len(M)), np.outer(B[:, 1], B[:, 1]))
         return float(np.sqrt(C @ P @ C + D[1] ** 2)) * sigma / self.period**2
 
 

@@ -149,8 +149,7 @@ class ObserverReport(OnHardware):
     @property
     def sections(self) -> list[_Section]:
         """All tables: gains, stability, estimate, impact and allowed bandwidths."""
-        tables = (self._gains, self._stability, self._estimate, self._impact, self._allowed)
-        return [table() for table in tables]
+        return [self._gains(), self._stability(), self._estimate(), self._impact(), self._allowed()]
 
     def text(self) -> str:
         """The verdict and the tables it is based on."""
