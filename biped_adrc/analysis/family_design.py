@@ -140,7 +140,7 @@ def design_family(
     # _member: v and L with the friction, peak torque and least F_N of the periodic step
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
-    # a row of `pairs` is a random pair of steps, the arguments of `TwoSteps.of`: speed v and length L of the
+    # a row of `pairs` is a random pair of steps, the argument of `TwoSteps.of`: speed v and length L of the
     # member at the impact between them, length `before` of the step before both, speed `end` and length
     # `ahead` of the member that ends the second step; low and high are ends of the ranges (speed, length)
     # _SAMPLES random steps, and those of the periodic walks, which decide on the speed that is held
@@ -149,7 +149,7 @@ def design_family(
     periodic = np.array([(v, L, L, v, L) for v, L, *_ in cycles])
     pairs = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
     pairs = np.concatenate((pairs, np.repeat(periodic, 1 + _SAMPLES // len(periodic), axis=0)))
-    steps = np.array([TwoSteps.of(biped, family, *x).numbers() for x in pairs])
+    steps = np.array([TwoSteps.of(biped, family, x).numbers() for x in pairs])
     v, before, L, end, ahead = pairs.T
     # columns of steps: delta^2 of the impact, 2 W', J' from it to the second step's decision, dq_b/dTheta after
     # it; the last two are 2 W, J from that decision to the second step's own impact
@@ -164,7 +164,7 @@ def design_family(
 
 def _cycle(biped: Biped, family: GaitFamily, v: float, L: float) -> tuple[float, ...]:
     """v, L, mean speed [m/s], and sigma^2 at the decision of the periodic walk on the member; () for none."""
-    delta2, twice_W_next, *_, twice_W, _ = TwoSteps.of(biped, family, v, L, L, v, L).numbers()
+    delta2, twice_W_next, *_, twice_W, _ = TwoSteps.of(biped, family, (v, L, L, v, L)).numbers()
     try:
         period = ZeroDynamics.of(biped, family.member(v, L)).cycle.period
     except GaitError:
@@ -191,17 +191,9 @@ class TwoSteps:
     """The second step from there to its end."""
 
     @classmethod
-    def of(
-        cls,
-        biped: Biped,
-        family: GaitFamily,
-        v: float,
-        before: float,
-        L: float,
-        end: float,
-        ahead: float,
-    ) -> Self:
-        """Compute both; see the class for the arguments."""
+    def of(cls, biped: Biped, family: GaitFamily, pair: Sequence[float]) -> Self:
+        """Compute both; pair: v, before, L, end, ahead of the class."""
+        v, before, L, end, ahead = pair
         c, p, mu = family.phase, biped.p, np.array((v, L))
         # plus, minus: Theta at the start and end of the first step; the step before it ended on `earlier`.
         # configuration(..)[:2] are q and dq/dTheta on a curve; `relabel` exchanges stance and swing leg in q
@@ -274,7 +266,7 @@ def _extreme(biped: Biped, family: GaitFamily, v: float, L: float, y: float, far
     """
     limits, near, end = Limits().of(biped.description), v, far
     for _ in range(_HALVED):
-        if TwoSteps.of(biped, family, v, L, L, end, L).keeps(y, limits):
+        if TwoSteps.of(biped, family, (v, L, L, end, L)).keeps(y, limits):
             near = end
         else:
             far = end
