@@ -26,7 +26,6 @@ summarises them for the walk.
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -157,17 +156,11 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
     """
     if name == "normal_force":
         return x > 0.0
-    fine = x <= _most(k)[name]
-    return fine | (x == math.inf) if name == "friction" else fine
-
-
-@cache
-def _most(k: KnownLimits) -> dict[str, float]:
-    """The largest number of each kind in `REASONS`, but of the normal force, that is within the limits."""
     cone = (1.0 + ROUND_OFF) * k.friction
-    # SLIP: largest distance that a foot may slip
+    # the largest number that is within; SLIP: largest distance that a foot may slip
     most = {"friction": cone, "torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
-    return dict.fromkeys(REASONS, 0.0) | most
+    fine = x <= most.get(name, 0.0)
+    return fine | (x == math.inf) if name == "friction" else fine
 
 
 def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
