@@ -202,9 +202,8 @@ class _Searched:
         chosen = [(x.selected[0], case, "chosen") for case, x in choices.items()]
         before = [(x.candidates[0], case, "before") for case, x in choices.items()]
         every = [*chosen, *before] if self.study.cases else [*before, *chosen]
-        self.walk(
-            "test", [(c.number, c.values, walk_names(case=x, setting=s)) for c, x, s in every]
-        )
+        named = [(c.number, c.values, walk_names(case=x, setting=s)) for c, x, s in every]
+        self.walk("test", named)
         self.runner.total = self.runner.done  # `total` was the most that the search might need
         self.runner.tell()
 
