@@ -167,11 +167,6 @@ class StridePI(OuterLoop):
         """Bound on |I| [m/s], such that |K_I I| has the bound of |beta|; infinite for K_I = 0."""
         return self.gains.limit / abs(self.gains.K_I) if self.gains.K_I else math.inf
 
-    @derived
-    def phase(self) -> tuple[float, float]:
-        """Phase Theta+ [rad] at the start of a step, and 1 / (Theta- - Theta+) [1/rad]."""
-        h = tracked_constraint(self.inner)
-        return h.theta_plus, 1.0 / (h.theta_minus - h.theta_plus)
-
     def correction(self, w: StrideState) -> Correction:
-        return Bump(w.beta * np.array(self.direction), *self.phase)
+        h = tracked_constraint(self.inner)
+        return Bump(w.beta * np.array(self.direction), h.theta_plus, h.rate)
