@@ -99,8 +99,14 @@ class Delayed(Around):
 
     @derived
     def pade(self) -> tuple[Array, Array]:
-        """Coefficients N (k,) and D (k + 1,) of the approximant in s d, lowest power first."""
-        return pade(self.order)
+        """Coefficients N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 = N_0 =
+        1.
+        """
+        k = self.order
+        P = [math.perm(2 * k - 1, j) for j in range(k + 1)]
+        N = [(-1) ** j * math.comb(k - 1, j) / P[j] for j in range(k)]
+        D = [math.comb(k, j) / P[j] for j in range(k + 1)]
+        return np.array(N), np.array(D)
 
     @derived
     def limit(self) -> float:
@@ -148,16 +154,6 @@ class Delayed(Around):
             "Delayed works in continuous time; in sampled time the delay is the clock's: "
             "SampledTime(period, delay=...) around the controller inside"
         )
-
-
-def pade(k: int) -> tuple[Array, Array]:
-    """Coefficients N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 =
-    N_0 = 1.
-    """
-    P = [math.perm(2 * k - 1, j) for j in range(k + 1)]
-    N = [(-1) ** j * math.comb(k - 1, j) / P[j] for j in range(k)]
-    D = [math.comb(k, j) / P[j] for j in range(k + 1)]
-    return np.array(N), np.array(D)
 
 
 @dataclass(frozen=True)
