@@ -22,7 +22,6 @@ Measurement and input of the observer are of all n coordinates, where those of A
 """
 
 from dataclasses import dataclass, field
-from typing import ClassVar
 
 import numpy as np
 
@@ -53,7 +52,7 @@ class MomentumDOBController(ObservingController):
     Theta'' is dropped, as (28) is printed. reset: what happens to the observer at impact.
     """
 
-    needs_body: ClassVar[bool] = True
+    needs_body = True
 
     reference: Reference
     observer: Observer = field(default_factory=lambda: MomentumObserver.from_bandwidth(200.0))

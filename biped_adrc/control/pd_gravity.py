@@ -10,7 +10,6 @@ error stays finite, and falls with the gains.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from biped_adrc.control.base import Controller, Measurement, body_of
 from biped_adrc.control.tracking import Gains, feedback
@@ -39,7 +38,7 @@ class PDGravityController(Controller):
     `Measurement.body`, and no other part of it.
     """
 
-    needs_body: ClassVar[bool] = True
+    needs_body = True
 
     reference: Reference
     gains: JointGains = JointGains()

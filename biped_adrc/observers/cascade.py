@@ -27,7 +27,6 @@ Babayomi, Manojlovic, IEEE/CAA J. Automatica Sinica, 2024, 124995.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -48,7 +47,7 @@ class CascadeObserver(Observer):
     chains: tuple[ChainObserver, ...]
 
     MAKERS = ("from_bandwidth",)
-    lead: ClassVar[int] = 2
+    lead = 2
     """Number of integrators between disturbance and measurement, as of each level."""
 
     def __post_init__(self) -> None:
