@@ -16,8 +16,6 @@ limits and the objective stop a search. Which of them does is asked of settings 
 as many candidates for a variable as the others (`together`).
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 import warnings

@@ -24,8 +24,6 @@ Whatever is wrong in a file is reported in one error. Values are numbers in the 
 Names of values are those of a scenario, such as "controller.K_p".
 """
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import json
@@ -34,7 +32,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from pydantic import Field, ValidationError, model_validator
 
@@ -101,7 +99,7 @@ class Study(Section):
     search: Search | None = None
 
     @model_validator(mode="after")
-    def _together(self) -> Study:
+    def _together(self) -> Self:
         """Check entries against each other. Raises ValueError with all that do not go together."""
         # _twice: values that two places set; _searched: faults of the search
         wrong = [*self._twice(), *(() if self.search is None else self._searched(self.search))]
