@@ -42,6 +42,8 @@ _APART = 1000
 
 WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
 """A function that walks candidates, and returns their walks in the same order."""
+Report = Callable[[Candidate], None]
+"""A function that is called with the best candidate so far."""
 
 
 def optuna_library() -> Any:
@@ -71,11 +73,7 @@ class Round(NamedTuple):
 
 
 def searched(
-    search: Search,
-    base: Values,
-    walk: WalkAll,
-    report: Callable[[Candidate], None],
-    seed: int | None = None,
+    search: Search, base: Values, walk: WalkAll, report: Report, seed: int | None = None
 ) -> Iterator[Round]:
     """Search a case with the values `base`; yield it after each round.
 
@@ -149,7 +147,7 @@ class _Proposals:
             return of.IntDistribution(int(r.low), int(r.high))
         return of.FloatDistribution(r.low, r.high, log=r.scale == "log")
 
-    def round(self, most: int, walk: WalkAll, report: Callable[[Candidate], None]) -> None:
+    def round(self, most: int, walk: WalkAll, report: Report) -> None:
         """Walk candidates, generation by generation, until `most` have been walked in all, and add them to
         `judged`. There are fewer where all proposals of a generation miss limits that are known without a walk.
         """
