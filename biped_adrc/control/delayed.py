@@ -58,9 +58,6 @@ from biped_adrc.core.timing import LONGEST_DELAY, WHOLE
 from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate
 
-OrderInt = Annotated[int, Range("a whole number from 1 to 10", lambda x: x in range(1, 11))]
-"""Order k; above 10 the coefficients cover more than ten decades, and the approximation gets no better."""
-
 
 class DelayState(NamedTuple):
     """State of a `Delayed`."""
@@ -84,24 +81,23 @@ class QueueState(NamedTuple):
 class Delayed(Around):
     """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade approximant.
 
-    order: k, 1 to 10. known: whether the observer inside is fed with the torque that acts, else with the
-    command. torque_limit [N m]: bound on the command, before the delay. It compiles around every controller
-    that compiles in continuous time. Raises InputError for numbers out of range.
+    order: k, 1 to 10; above 10 the coefficients cover more than ten decades, and the approximation gets no
+    better. known: whether the observer inside is fed with the torque that acts, else with the command.
+    torque_limit [N m]: bound on the command, before the delay. It compiles around every controller that
+    compiles in continuous time. Raises InputError for numbers out of range.
     """
 
     # none: `ImpactInvariant`, which uses this, goes inside
     reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     delay: PositiveFloat
-    order: OrderInt = 4
+    order: Annotated[int, Range("a whole number from 1 to 10", lambda x: x in range(1, 11))] = 4
     known: bool = False
     torque_limit: PositiveFloat | None = None
 
     @derived
     def pade(self) -> tuple[Array, Array]:
-        """Coefficients N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 = N_0 =
-        1.
-        """
+        """N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 = N_0 = 1."""
         k = self.order
         P = [math.perm(2 * k - 1, j) for j in range(k + 1)]
         N = [(-1) ** j * math.comb(k - 1, j) / P[j] for j in range(k)]

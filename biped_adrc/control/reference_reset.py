@@ -64,9 +64,6 @@ def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) ->
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
 
 
-ShareFloat = Annotated[float, Range("a share in (0, 1]", lambda x: 0.0 < x <= 1.0)]
-
-
 @dataclass(frozen=True)
 class ReferenceReset(OuterLoop):
     """An outer loop that bends the constraint of `inner` to the state after each
@@ -81,7 +78,7 @@ class ReferenceReset(OuterLoop):
     1
     """
 
-    share: ShareFloat = 0.5
+    share: Annotated[float, Range("a share in (0, 1]", lambda x: 0.0 < x <= 1.0)] = 0.5
 
     @derived
     def range(self) -> tuple[float, float]:

@@ -185,8 +185,6 @@ def _seeds(value: object) -> object:
 
 Named = Annotated[dict[str, Any], BeforeValidator(lambda value: by_entry(value, Scenario.value_of))]
 """Values of a scenario by name, read with their units."""
-Sets = dict[str, Named]
-"""Values by name of the case or condition."""
 Grid = Annotated[
     dict[str, tuple[Any, ...]], BeforeValidator(lambda value: by_entry(value, _levels))
 ]

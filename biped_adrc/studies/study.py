@@ -44,7 +44,7 @@ from biped_adrc.scenario.scenario import Scenario, read_scenario
 from biped_adrc.studies.build import SEED, Values, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Aim, Column, Limit, Measure
 from biped_adrc.studies.search import Search, Variable, WalkSets
-from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds, Sets
+from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds
 
 Undrawn = frozenset[tuple[str, str]]
 """Pairs (case, condition) in whose walks nothing that acts is drawn from the seed: each is walked once."""
@@ -91,8 +91,8 @@ class Study(Section):
     column: Column = "rms_error"
     """The column of the results whose median the table and the page show."""
     base: Named = Field(default_factory=dict)
-    cases: Sets = Field(default_factory=dict)
-    conditions: Sets = Field(default_factory=dict)
+    cases: dict[str, Named] = Field(default_factory=dict)
+    conditions: dict[str, Named] = Field(default_factory=dict)
     grid: Grid = Field(default_factory=dict)
     draw: Draw | None = None
     seeds: Seeds = ()
