@@ -24,7 +24,7 @@ from report import Run, Table, arguments, forked, rounds, spent
 
 import biped_adrc as ba
 from biped_adrc.engine.batch import Case, simulate_many
-from biped_adrc.studies.build import PlainValues, scenario_of, trial_of
+from biped_adrc.studies.build import Values, scenario_of, trial_of
 from biped_adrc.studies.results import opened
 from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.runner import LARGEST_CHUNK
@@ -118,7 +118,7 @@ def search(budget: int, walks: int) -> Study:
     )
 
 
-def searched(asked: Study, executor: Executor) -> list[PlainValues]:
+def searched(asked: Study, executor: Executor) -> list[Values]:
     """Search in a folder of its own; the records of all walks of the first set."""
     with tempfile.TemporaryDirectory() as folder:
         ba.study(asked, folder, executor)
@@ -127,7 +127,7 @@ def searched(asked: Study, executor: Executor) -> list[PlainValues]:
             return [json.loads(record) for (record,) in found]
 
 
-def rows(records: Sequence[PlainValues], executor: Executor) -> None:
+def rows(records: Sequence[Values], executor: Executor) -> None:
     """The walks alone, in chunks as those of a search."""
     chunks = [records[i : i + LARGEST_CHUNK] for i in range(0, len(records), LARGEST_CHUNK)]
     for future in [executor.submit(run_trials, chunk) for chunk in chunks]:
@@ -145,13 +145,13 @@ def searches(budget: int, walks: int) -> Table:
         searched(search(6, 2), executor)  # whatever is compiled once
     asked = search(budget, walks)
     for name, workers in (("2 threads", partial(ThreadPoolExecutor, 2)), ("2 processes", forked)):
-        records: list[PlainValues] = []
+        records: list[Values] = []
 
-        def whole(workers: Any = workers, records: list[PlainValues] = records) -> None:
+        def whole(workers: Any = workers, records: list[Values] = records) -> None:
             with workers() as executor:
                 records.extend(searched(asked, executor))
 
-        def alone(workers: Any = workers, records: list[PlainValues] = records) -> None:
+        def alone(workers: Any = workers, records: list[Values] = records) -> None:
             with workers() as executor:
                 rows(records, executor)
 

@@ -17,8 +17,8 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.optimize import brentq
 
 import biped_adrc as ba
-from biped_adrc.analysis.certificate import certificates, supports
-from biped_adrc.analysis.feasibility import first_violation, outcome_of
+from biped_adrc.analysis.certificate import certificates, first_violation, supports
+from biped_adrc.analysis.feasibility import outcome_of
 from biped_adrc.analysis.ground_force import Nodes, demands
 from biped_adrc.core.errors import InputError
 from biped_adrc.gait.constraint import continued

@@ -22,9 +22,9 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.control.base import body_of
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.super_twisting import SuperTwistingController
-from biped_adrc.control.tracking import body_of
 from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.gait.conventions import layout_of
 from biped_adrc.gait.exchange.samples import read_csv

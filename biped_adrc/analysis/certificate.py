@@ -19,14 +19,14 @@ those on the plant.
     soft ground    that of a simulator with contacts, which limits the friction itself
 
 `Limits` may leave numbers to the robot's record, `KnownLimits` has them all. `certificates` and `supports`
-compute these numbers from the nodes; `feasibility` summarises them for the walk.
+compute these numbers from the nodes, `first_violation` finds where a walk first violates a limit; `feasibility`
+summarises them for the walk.
 """
 
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -78,11 +78,9 @@ class Support(Shown):
     mean_friction: float
     """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
-    """Largest depth of the swing foot below the straight lines between footholds [m], but near the ends of the
-    step."""
+    """Largest depth of the swing foot below the lines between footholds [m], but near the ends of the step."""
     riser: float
-    """The same where the ground is level up to a riser just before each foothold [m]: a harder ground, which
-    does not count."""
+    """The same on a harder ground, level up to a riser before each foothold [m], which does not count."""
     slip: float
     """Largest distance that a foot slips on soft ground [m]; 0 on the rigid plant."""
     missed_stone: float
@@ -158,17 +156,11 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
     """
     if name == "normal_force":
         return x > 0.0
-    fine = x <= _most(k)[name]
-    return fine | (x == math.inf) if name == "friction" else fine
-
-
-@cache
-def _most(k: KnownLimits) -> dict[str, float]:
-    """The largest number of each kind in `REASONS`, but of the normal force, that is within the limits."""
     cone = (1.0 + ROUND_OFF) * k.friction
-    # SLIP: largest distance that a foot may slip
+    # the largest number that is within; SLIP: largest distance that a foot may slip
     most = {"friction": cone, "torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
-    return dict.fromkeys(REASONS, 0.0) | most
+    fine = x <= most.get(name, 0.0)
+    return fine | (x == math.inf) if name == "friction" else fine
 
 
 def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
@@ -253,6 +245,53 @@ def supports(
     names = ("step", "joints", "duration", "riser", *REASONS.values())
     rows = (dict(zip(names, row, strict=True)) for row in zip(*columns, strict=True))
     return tuple(Support(**row, limits=k) for row in rows)
+
+
+class Violation(NamedTuple):
+    """The first limit that a walk violates."""
+
+    t: float
+    """Time of the violation [s]."""
+    support: int
+    """Index of its single support, from 0."""
+    what: str
+    """The violation in words."""
+
+
+def first_violation(
+    walker: Walker,
+    n: Nodes,
+    k: KnownLimits,
+    impacts: int,
+    after: Array | None = None,
+    slipped: Sequence[float] = (),
+) -> Violation | None:
+    """Find the first node, impact, or end of a window of the mean force, at which a walk violates a limit, or
+    a foot has slipped too far; or None.
+
+    n: its nodes. k: the limits. impacts: number of its single supports that ended in an impact. after (2,)
+    [N s]: momentum just after the impact with which the walk ends, as no node follows it, else None. slipped:
+    on soft ground, the time [s] in each single support when a foot has slipped by SLIP, infinite for never.
+    """
+    # slips, then the first violation of each kind; a number that is one per single support counts at its end
+    text = f"a foot slips by more than {1e3 * SLIP:g} mm"
+    result = [Violation(t, i, text) for i, t in enumerate(slipped) if t < math.inf]
+    # rows 0 to 5: the numbers of AT_NODES; rows 6 to 8: the joint that has each of the last three
+    needed, _ = demands(walker, n, k.window, impacts)
+    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=False)) if n.p else {}
+    # numbers: what the limits apply to, by the limit's name; not strict: the rows of joints are left out
+    numbers = dict(zip(AT_NODES, needed, strict=False)) | at_ends(walker, n, k, impacts, after)
+    for name, x in numbers.items():
+        # [:1]: the first only, if there is any
+        for i in np.flatnonzero(~keeps(name, x, k))[:1]:
+            # AT_NODES: names of the numbers that exist at each node, others at the end of a support
+            at = i if name in AT_NODES else n.last[i]
+            has = name in which  # whether the number belongs to one joint
+            joint = joint_of(walker.plant, which[name][i], n.at.step[i]) if has else None
+            support = int(np.searchsorted(n.last, at))
+            text = violation(name, x[i], k, joint)
+            result.append(Violation(float(n.at.t[at]), support, text))
+    return min(result, default=None, key=lambda one: one.t)
 
 
 def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:

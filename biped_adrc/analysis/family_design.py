@@ -51,8 +51,7 @@ CURVE_DEGREE, STEP_DEGREE, CYCLE_DEGREE = 4, 4, 6
 OF_LIBRARY = ("method", "curves", "minimised", "limits")
 """Entries of a gait's provenance that are the same for all gaits of the library."""
 _SAMPLES, _GRID = 1200, 11
-"""Number of random walking steps to which `StepMap` is fitted, and of speeds and of lengths of cycles; both
-count the same."""
+"""Number of random steps to which `StepMap` is fitted, and of speeds and lengths of cycles, of equal weight."""
 _NODES = 16
 """Number of Gauss nodes of each part of a step, before and after the decision (`control.footstep`)."""
 _HALVED = 8
@@ -132,32 +131,26 @@ def design_family(
     curves = PolynomialMap.fit(mu, np.array(y), CURVE_DEGREE)
     # a placeholder: the functions below need the family's curves alone, and give its real `steps`
     empty = PolynomialMap(((0,),), np.zeros((1, 1)), np.zeros(1), np.ones(1))
-    family = GaitFamily(
-        name,
-        biped.description.name,
-        biped.preset,
-        curves,
-        StepMap(empty, empty, empty, empty),
-        constraints[0].phase,
-        mu.min(axis=0),
-        mu.max(axis=0),
-        # OF_LIBRARY: entries that are the same for all gaits
-        provenance={**{k: first[k] for k in OF_LIBRARY}, **provenance},
-    )
+    # OF_LIBRARY: entries that are the same for all gaits
+    about = {**{k: first[k] for k in OF_LIBRARY}, **provenance}
+    maps = curves, StepMap(empty, empty, empty, empty)
+    ends = mu.min(axis=0), mu.max(axis=0)
+    own = biped.description.name, biped.preset, *maps, constraints[0].phase, *ends
+    family = GaitFamily(name, *own, provenance=about)
     # _member: v and L with the friction, peak torque and least F_N of the periodic step
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
-    # a row of `ends` is a random pair of steps, the arguments of `TwoSteps.of`: speed v and length L of the
+    # a row of `pairs` is a random pair of steps, the argument of `TwoSteps.of`: speed v and length L of the
     # member at the impact between them, length `before` of the step before both, speed `end` and length
     # `ahead` of the member that ends the second step; low and high are ends of the ranges (speed, length)
     # _SAMPLES random steps, and those of the periodic walks, which decide on the speed that is held
     grid = itertools.product(*(np.linspace(*ends, _GRID) for ends in zip(low, high, strict=True)))
     cycles = [cycle for v, L in grid if (cycle := _cycle(biped, family, v, L))]
     periodic = np.array([(v, L, L, v, L) for v, L, *_ in cycles])
-    ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
-    ends = np.concatenate((ends, np.repeat(periodic, 1 + _SAMPLES // len(periodic), axis=0)))
-    steps = np.array([TwoSteps.of(biped, family, *x).numbers() for x in ends])
-    v, before, L, end, ahead = ends.T
+    pairs = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
+    pairs = np.concatenate((pairs, np.repeat(periodic, 1 + _SAMPLES // len(periodic), axis=0)))
+    steps = np.array([TwoSteps.of(biped, family, x).numbers() for x in pairs])
+    v, before, L, end, ahead = pairs.T
     # columns of steps: delta^2 of the impact, 2 W', J' from it to the second step's decision, dq_b/dTheta after
     # it; the last two are 2 W, J from that decision to the second step's own impact
     to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEP_DEGREE)
@@ -165,13 +158,13 @@ def design_family(
     to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
     _, L, speed, y = np.transpose(cycles)
     of_cycle = PolynomialMap.fit(np.column_stack((speed, L)), y[:, np.newaxis], CYCLE_DEGREE)
-    maps = StepMap(to_impact, to_decision, of_cycle, step_ends(biped, family, cycles))
-    return replace(family, steps=maps, members=members)
+    steps_of = StepMap(to_impact, to_decision, of_cycle, step_ends(biped, family, cycles))
+    return replace(family, steps=steps_of, members=members)
 
 
 def _cycle(biped: Biped, family: GaitFamily, v: float, L: float) -> tuple[float, ...]:
     """v, L, mean speed [m/s], and sigma^2 at the decision of the periodic walk on the member; () for none."""
-    delta2, twice_W_next, *_, twice_W, _ = TwoSteps.of(biped, family, v, L, L, v, L).numbers()
+    delta2, twice_W_next, *_, twice_W, _ = TwoSteps.of(biped, family, (v, L, L, v, L)).numbers()
     try:
         period = ZeroDynamics.of(biped, family.member(v, L)).cycle.period
     except GaitError:
@@ -198,17 +191,9 @@ class TwoSteps:
     """The second step from there to its end."""
 
     @classmethod
-    def of(
-        cls,
-        biped: Biped,
-        family: GaitFamily,
-        v: float,
-        before: float,
-        L: float,
-        end: float,
-        ahead: float,
-    ) -> Self:
-        """Compute both; see the class for the arguments."""
+    def of(cls, biped: Biped, family: GaitFamily, pair: Sequence[float]) -> Self:
+        """Compute both; pair: v, before, L, end, ahead of the class."""
+        v, before, L, end, ahead = pair
         c, p, mu = family.phase, biped.p, np.array((v, L))
         # plus, minus: Theta at the start and end of the first step; the step before it ended on `earlier`.
         # configuration(..)[:2] are q and dq/dTheta on a curve; `relabel` exchanges stance and swing leg in q
@@ -228,10 +213,9 @@ class TwoSteps:
         curve = StepCurve(family, v, end, ahead, start, reset)
         decision = start + DECISION * (family.curve(np.array((v, ahead)))[2] - start)
         over = family.curve(np.array((end, ahead)))[2]
-        first, last = (
-            ZeroDynamics.of(biped, VirtualConstraint(earlier.curve, c, *ends), _NODES, curve)
-            for ends in ((start, decision), (decision, over))
-        )
+        ends = (start, decision), (decision, over)
+        parts = (VirtualConstraint(earlier.curve, c, *pair) for pair in ends)
+        first, last = (ZeroDynamics.of(biped, part, _NODES, curve) for part in parts)
         return cls(delta**2, slope, first, last)
 
     def numbers(self) -> Array:
@@ -282,7 +266,7 @@ def _extreme(biped: Biped, family: GaitFamily, v: float, L: float, y: float, far
     """
     limits, near, end = Limits().of(biped.description), v, far
     for _ in range(_HALVED):
-        if TwoSteps.of(biped, family, v, L, L, end, L).keeps(y, limits):
+        if TwoSteps.of(biped, family, (v, L, L, end, L)).keeps(y, limits):
             near = end
         else:
             far = end

@@ -17,30 +17,17 @@ import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import (
-    AT_NODES,
-    IMPULSE,
-    OF_JOINTS,
-    Support,
-    after_last_impact,
-    at_ends,
-    ended_in_impact,
-    joint_of,
-    keeps,
-    violation,
-)
-from biped_adrc.analysis.ground_force import Nodes, demands
+from biped_adrc.analysis.certificate import IMPULSE, Support, after_last_impact, first_violation
+from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots.limits import SLIP, KnownLimits, Limits
+from biped_adrc.model.robots.limits import Limits
 
 OUTCOMES = {
     "fell": "it fell",
@@ -140,46 +127,6 @@ class Feasibility(Shown):
         return ": ".join(filter(None, (OUTCOMES[self.outcome], "; ".join(self.reasons.values()))))
 
 
-class Violation(NamedTuple):
-    """The first limit that a walk violates."""
-
-    t: float
-    """Time of the violation [s]."""
-    support: int
-    """Index of its single support, from 0."""
-    what: str
-    """The violation in words."""
-
-
-def first_violation(
-    walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
-) -> Violation | None:
-    """Find the first node, impact, or end of a window of the mean force, at which a walk
-    violates a limit; or None.
-
-    n: its nodes. k: the limits. impacts: number of its single supports that ended in an impact. after (2,)
-    [N s]: momentum just after the impact with which the walk ends, as no node follows it, else None.
-    """
-    # the first violation of each kind; a number that is one per single support counts at its end
-    result = []
-    # rows 0 to 5: the numbers of AT_NODES; rows 6 to 8: the joint that has each of the last three
-    needed, _ = demands(walker, n, k.window, impacts)
-    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=False)) if n.p else {}
-    # numbers: what the limits apply to, by the limit's name; not strict: the rows of joints are left out
-    numbers = dict(zip(AT_NODES, needed, strict=False)) | at_ends(walker, n, k, impacts, after)
-    for name, x in numbers.items():
-        # [:1]: the first only, if there is any
-        for i in np.flatnonzero(~keeps(name, x, k))[:1]:
-            # AT_NODES: names of the numbers that exist at each node, others at the end of a support
-            at = i if name in AT_NODES else n.last[i]
-            has = name in which  # whether the number belongs to one joint
-            joint = joint_of(walker.plant, which[name][i], n.at.step[i]) if has else None
-            support = int(np.searchsorted(n.last, at))
-            text = violation(name, x[i], k, joint)
-            result.append(Violation(float(n.at.t[at]), support, text))
-    return min(result, default=None, key=lambda one: one.t)
-
-
 def until_infeasible(
     walker: Walker,
     trajectory: Trajectory,
@@ -197,12 +144,8 @@ def until_infeasible(
     k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slipped is not None:
         k = k._replace(friction=math.inf)
-    # first: the first violation at a node or impact; slips: those of the feet; the earlier one cuts the walk
-    impacts, after = sum(map(ended_in_impact, arcs)), after_last_impact(walker, trajectory)
-    first = first_violation(walker, Nodes.of(signals), k, impacts, after)
-    text = f"a foot slips by more than {1e3 * SLIP:g} mm"
-    slips = [Violation(t, i, text) for i, t in enumerate(slipped or ()) if t < math.inf]
-    result = min((*slips, *([first] if first else ())), default=None, key=lambda one: one.t)
+    impacts, after = len(trajectory.events(FOOT_STRIKE)), after_last_impact(walker, trajectory)
+    result = first_violation(walker, Nodes.of(signals), k, impacts, after, slipped or ())
     if result is None:
         return trajectory
     arc = arcs[result.support]

@@ -32,15 +32,11 @@ from functools import partial
 
 import numpy as np
 
-from biped_adrc.analysis.return_map import (
-    PeriodicOrbit,
-    ReturnMap,
-    after_impact,
-    sorted_eigenvalues,
-)
+from biped_adrc.analysis.return_map import PeriodicOrbit, ReturnMap, after_impact
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, SimulationError
+from biped_adrc.core.linear import sorted_eigenvalues
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.disturbances.base import NO_PUSH

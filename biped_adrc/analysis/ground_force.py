@@ -117,10 +117,8 @@ def _known(plant: Biped, slope: float, window: float) -> Array:
 
 
 # `load` joins these texts in this order: a decorator has to stand before the function that uses it.
-LOOPS = (
-    *(f"biped_adrc.engine.kernels.{name}" for name in ("record", "call")),
-    "biped_adrc.analysis.demands",
-)
+_TEXTS = ("engine.kernels.record", "engine.kernels.call", "analysis.demands")
+LOOPS = tuple(f"biped_adrc.{name}" for name in _TEXTS)
 
 
 def _loops() -> Any:

@@ -21,7 +21,7 @@ import numpy as np
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.checks import Checked
 from biped_adrc.core.errors import InputError, ModelError, SimulationError
-from biped_adrc.core.linear import solve
+from biped_adrc.core.linear import solve, sorted_eigenvalues
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.engine.not_compiled import NotCompiled
@@ -233,12 +233,6 @@ def newton_step(J: Array, gap: Array) -> Array:
     """
     # the text names the matrix in the error
     return solve(np.eye(len(gap)) - J, gap, "1 - dP/ds, by which Newton looks for the cycle,")
-
-
-def sorted_eigenvalues(matrix: Array) -> ComplexArray:
-    """Eigenvalues (k,) of a matrix (k, k), the largest magnitude first."""
-    values = np.linalg.eigvals(matrix).astype(complex)
-    return values[np.argsort(-np.abs(values))]
 
 
 def not_converged(residual: float, tolerance: float) -> SimulationError:

@@ -18,7 +18,7 @@ the map holds. H is the largest with the first interval inside of the others. It
 itself, so H without some of them, such as torques that clip while the robot walks on, is the least of the rest.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from types import NoneType
@@ -119,7 +119,8 @@ class RoughGround(Shown):
         H = np.abs(self._outward(self.map.heights, way)[0])
         # a map that ends before its usual heights has no landing on the next one
         end = {LEG if len(H) > SIDE else LANDING: float(H[-1])}
-        return {name: _first_zero(H, x) for name, x in margins.items()} | end
+        # margins fall with H: where they come to 0; infinite for none
+        return {n: float(np.interp(0.0, -x, H, right=np.inf)) for n, x in margins.items()} | end
 
     def reach(self, way: str = "both", but: Collection[str] = ()) -> Reach:
         """H of one way without the limits named in `but`; way: as in `reaches`.
@@ -208,21 +209,8 @@ def failing_step(y: Array, after: Array, walked: Flags, p: Array) -> Array:
     return np.asarray(np.linalg.solve(np.eye(n) - T.reshape(n, n), np.ones(n)), float)
 
 
-def _first_zero(H: Array, margin: Array) -> float:
-    """The least H [m] at which a margin (K,), which falls with H (K,), is not positive; infinite for none."""
-    k = int(np.argmax(~(margin > 0.0)))
-    if margin[k] > 0.0:
-        return float("inf")
-    if k == 0:
-        return 0.0
-    return float(H[k - 1] + (H[k] - H[k - 1]) * margin[k - 1] / (margin[k - 1] - margin[k]))
-
-
 def rough_ground(
-    walker: Walker,
-    gait: Gait,
-    limits: Limits | None = None,
-    forces: Collection[float] = (-2.0, 2.0),
+    walker: Walker, gait: Gait, limits: Limits | None = None, forces: Sequence[float] = (-2.0, 2.0)
 ) -> RoughGround:
     """How rough a ground a walker bears on a gait, with `ReferenceReset` and a perfect inner loop in continuous
     time. A step may last as long as it takes: near H longer than the walker's `max_step_time`.

@@ -270,7 +270,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     In r the ground force includes the force from outside, which is subtracted, and the potential energy is zero
     at the height of the stance foot of each step.
     """
-    arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
+    arcs, n, c = trajectory.arcs, walker.plant.n, walker.plant.phase
     r = as_recorded(walker, trajectory, r)  # on another plant with what it recorded
     x = np.vstack([arc.x for arc in arcs])
     q, v = x[:, :n], x[:, n : 2 * n]
@@ -285,19 +285,11 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
         outside = np.array([walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen])
     r = r._replace(ground_reaction=r.ground_reaction - outside)
     r = r._replace(potential=r.potential + walker.plant.weight * foot[:, 1])
-    return Signals(
-        t=np.concatenate([arc.t for arc in arcs]),
-        step=np.concatenate([np.full(len(arc.t), arc.mode.step) for arc in arcs]),
-        q=q,
-        v=v,
-        theta=q @ walker.plant.phase,
-        dtheta=v @ walker.plant.phase,
-        error=q[:, :p] - r.q_d,
-        foothold=foot[:, 0],
-        foothold_height=foot[:, 1],
-        outside=outside,
-        **r._asdict(),
-    )
+    t = np.concatenate([arc.t for arc in arcs])
+    step = np.concatenate([np.full(len(arc.t), arc.mode.step) for arc in arcs])
+    tracked = {"theta": q @ c, "dtheta": v @ c, "error": q[:, : walker.plant.p] - r.q_d}
+    stands = {"foothold": foot[:, 0], "foothold_height": foot[:, 1], "outside": outside}
+    return Signals(t=t, step=step, q=q, v=v, **tracked, **stands, **r._asdict())
 
 
 # -- on another plant ---------------------------------------------------------------------------------
@@ -350,15 +342,10 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
         matched, unmatched = disturbance_parts(terms, unknown_force(terms, a_k, u))
         rows.append((a_k[:p] - terms.kappa @ u, matched + unmatched, matched, terms.xi))
     xi, external, matched, nominal = map(np.array, zip(*rows, strict=True))
-    return found._replace(
-        a=a,
-        xi=xi,
-        xi_external=external,
-        xi_matched=matched,
-        xi_nominal=nominal,
-        ground_reaction=force[:, :2] + np.array(outside),
-        momentum=found.momentum + walker.plant.mass * speed[:, :2],
-    )
+    found = found._replace(xi=xi, xi_external=external, xi_matched=matched, xi_nominal=nominal)
+    ground = force[:, :2] + np.array(outside)
+    momentum = found.momentum + walker.plant.mass * speed[:, :2]
+    return found._replace(a=a, ground_reaction=ground, momentum=momentum)
 
 
 def accelerations(arc: Arc, n: int) -> Array:

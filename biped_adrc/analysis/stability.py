@@ -30,18 +30,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate, certificates
-from biped_adrc.analysis.return_map import (
-    PeriodicOrbit,
-    ReturnMap,
-    after_impact,
-    sorted_eigenvalues,
-)
+from biped_adrc.analysis.return_map import PeriodicOrbit, ReturnMap, after_impact
 from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import SimulationError
+from biped_adrc.core.linear import sorted_eigenvalues
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.engine.run import simulate_by

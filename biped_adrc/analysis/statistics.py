@@ -24,14 +24,14 @@ class Interval(NamedTuple):
     """A point estimate with its 95 % confidence interval; NaN where there are too few walks for one."""
 
     value: float
-    low: float
-    high: float
+    low: float = math.nan
+    high: float = math.nan
 
 
 def share(successes: int, count: int) -> Interval:
     """Share of `successes` among `count` walks, at least one, with Wilson's interval; NaN ends for one walk."""
     if count == 1:
-        return Interval(float(successes), math.nan, math.nan)
+        return Interval(float(successes))
     result = scipy.stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
     return Interval(successes / count, float(result.low), float(result.high))
 

@@ -102,12 +102,9 @@ def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
     mode: number and start [s] of the single support. Raises NotFiniteError where a result is not finite.
     """
     # _DIFFERENCE: half width of the differences
-    d = _DIFFERENCE
-    columns = [
-        (walker.tick(t, x + d * e, mode) - walker.tick(t, x - d * e, mode)) / (2.0 * d)
-        for e in np.eye(len(x))
-    ]
-    return _finite(walker.tick(t, x, mode), np.array(columns).T)
+    d, tick = _DIFFERENCE, partial(walker.tick, t)
+    columns = [(tick(x + d * e, mode) - tick(x - d * e, mode)) / (2.0 * d) for e in np.eye(len(x))]
+    return _finite(tick(x, mode), np.array(columns).T)
 
 
 def _finite(after: Array, J: Array) -> tuple[Array, Array]:

@@ -37,11 +37,11 @@ from biped_adrc.analysis.return_map import (
     after_impact,
     newton_step,
     not_converged,
-    sorted_eigenvalues,
 )
 from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.walker import Instant, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError, SimulationError, SingularError
+from biped_adrc.core.linear import sorted_eigenvalues
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
@@ -219,15 +219,9 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     # dh/ds at a fixed time; over `rate` it is -dt/ds of the impact's time t
     earlier = dh @ through
     through -= np.outer(f_end, earlier) / rate
-    return StepDerivative(
-        s=s,
-        image=P.project(x_end),
-        jacobian=np.delete(through, k, axis=0),
-        duration=end.t,
-        flow_residual=float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end))),
-        end_flow=np.delete(f_end, k),
-        earlier=earlier / rate,
-    )
+    residual = float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end)))
+    found = s, P.project(x_end), np.delete(through, k, axis=0), end.t, residual
+    return StepDerivative(*found, end_flow=np.delete(f_end, k), earlier=earlier / rate)
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:

@@ -186,9 +186,6 @@ def _because(bound: Bound) -> str:
 
 def _show(limits: DomainLimits) -> str:
     """Text with the limits that the domain respects."""
-    result = ["F_N > 0"]
-    if limits.friction is not None:
-        result.append(f"friction {limits.friction:g}")
-    if limits.torque is not None:
-        result.append(f"torque {limits.torque:g} N m")
-    return ", ".join(result)
+    known = {"friction {:g}": limits.friction, "torque {:g} N m": limits.torque}
+    words = (text.format(x) for text, x in known.items() if x is not None)
+    return ", ".join(("F_N > 0", *words))

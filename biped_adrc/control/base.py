@@ -63,8 +63,7 @@ class Measurement(NamedTuple):
     terms: Reduction
     """D, Omega, kappa, xi and more of the nominal model at (q, v)."""
     body: BodyTerms | None = None
-    """G, C' q' (C' is a transpose) and the ground's force of the nominal model; None for a controller without
-    `needs_body`."""
+    """G, C' q' (C' a transpose) and the ground's force of the nominal model; None without `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
     """elsewhere(q, v), each (n,) [rad, rad/s] -> the measurement there, at this time; None outside a loop."""
     impulse: Array | None = None
@@ -89,6 +88,29 @@ def measured(m: Measurement) -> Estimate:
     A law without an observer uses it in place of estimates, and an observer starts from it.
     """
     return Estimate(m.q_b, m.v_b, m.terms.xi)
+
+
+def body_of(m: Measurement) -> BodyTerms:
+    """`m.body`, the body terms of the nominal model: gravity, the ground's force, the swing foot's Jacobian.
+
+    Raises InputError for a measurement made for a controller without `needs_body`.
+    """
+    if m.body is None:
+        raise InputError(
+            "the measurement has no body terms; expected those of the nominal model. Give the controller "
+            "needs_body = True, or the Measurement body=biped.body_terms(q, v)"
+        )
+    return m.body
+
+
+def impulse_of(m: Measurement) -> Array:
+    """`m.impulse` (n, 2) [1/(kg m)], the changes of the rates by an impulse on the striking foot.
+
+    Raises InputError for a measurement without it.
+    """
+    if m.impulse is None:
+        raise InputError("the measurement has no impulse; expected one made by ImpactInvariant")
+    return m.impulse
 
 
 _GONE = {

@@ -39,8 +39,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.control.tracking import body_of, output_matrix
+from biped_adrc.control.base import Controller, Measurement, body_of
+from biped_adrc.control.tracking import output_matrix
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.errors import NotFiniteError
 from biped_adrc.core.linear import solve
@@ -181,13 +181,11 @@ class CLFQPController(Controller):
         if self.torque_limit is not None:
             G += [to.U, -to.U]
             h += [self.torque_limit - to.u_0, self.torque_limit + to.u_0]
-        ground, F_mu, F_1 = 0, to.F_mu, to.F_1
+        F_mu, F_1, first = to.F_mu, to.F_1, sum(map(len, G))  # first: row of the ground's force
         if self.least_force is not None:
-            ground += 1
             G.append(-F_mu[1:])  # -F_N <= -F_min
             h.append(F_1[1:] - self.least_force)
         if self.friction is not None:
-            ground += 2
             # F_T - friction F_N <= 0 and -F_T - friction F_N <= 0
             cone = np.array([[1.0, -self.friction], [-1.0, -self.friction]])
             G.append(cone @ F_mu)
@@ -196,7 +194,7 @@ class CLFQPController(Controller):
         np.concatenate(G, out=rows[:, :p])
         # -delta, by the last entry of z, which is sqrt w delta
         rows[0, p] = -1.0 / math.sqrt(self.relaxation)
-        return _Rows(rows, np.concatenate(h), ground)
+        return _Rows(rows, np.concatenate(h), len(rows) - first)
 
     def _solved(self, program: _Rows) -> Array | None:
         """Solve the program for mu (p,) [rad/s^2], with the limits on the force of the ground or else without;

@@ -58,9 +58,6 @@ from biped_adrc.core.timing import LONGEST_DELAY, WHOLE
 from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate
 
-OrderInt = Annotated[int, Range("a whole number from 1 to 10", lambda x: x in range(1, 11))]
-"""Order k; above 10 the coefficients cover more than ten decades, and the approximation gets no better."""
-
 
 class DelayState(NamedTuple):
     """State of a `Delayed`."""
@@ -84,23 +81,28 @@ class QueueState(NamedTuple):
 class Delayed(Around):
     """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade approximant.
 
-    order: k, 1 to 10. known: whether the observer inside is fed with the torque that acts, else with the
-    command. torque_limit [N m]: bound on the command, before the delay. It compiles around every controller
-    that compiles in continuous time. Raises InputError for numbers out of range.
+    order: k, 1 to 10; above 10 the coefficients cover more than ten decades, and the approximation gets no
+    better. known: whether the observer inside is fed with the torque that acts, else with the command.
+    torque_limit [N m]: bound on the command, before the delay. It compiles around every controller that
+    compiles in continuous time. Raises InputError for numbers out of range.
     """
 
     # none: `ImpactInvariant`, which uses this, goes inside
     reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     delay: PositiveFloat
-    order: OrderInt = 4
+    order: Annotated[int, Range("a whole number from 1 to 10", lambda x: x in range(1, 11))] = 4
     known: bool = False
     torque_limit: PositiveFloat | None = None
 
     @derived
     def pade(self) -> tuple[Array, Array]:
-        """Coefficients N (k,) and D (k + 1,) of the approximant in s d, lowest power first."""
-        return pade(self.order)
+        """N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 = N_0 = 1."""
+        k = self.order
+        P = [math.perm(2 * k - 1, j) for j in range(k + 1)]
+        N = [(-1) ** j * math.comb(k - 1, j) / P[j] for j in range(k)]
+        D = [math.comb(k, j) / P[j] for j in range(k + 1)]
+        return np.array(N), np.array(D)
 
     @derived
     def limit(self) -> float:
@@ -148,16 +150,6 @@ class Delayed(Around):
             "Delayed works in continuous time; in sampled time the delay is the clock's: "
             "SampledTime(period, delay=...) around the controller inside"
         )
-
-
-def pade(k: int) -> tuple[Array, Array]:
-    """Coefficients N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 =
-    N_0 = 1.
-    """
-    P = [math.perm(2 * k - 1, j) for j in range(k + 1)]
-    N = [(-1) ** j * math.comb(k - 1, j) / P[j] for j in range(k)]
-    D = [math.comb(k, j) / P[j] for j in range(k + 1)]
-    return np.array(N), np.array(D)
 
 
 @dataclass(frozen=True)

@@ -111,11 +111,6 @@ class FootBarrier(Around):
         # the last field is for moments at the point, which are not needed here
         return LinkPoint(A, K.foot_re, K.foot_im, np.zeros(len(A)))
 
-    @derived
-    def phase(self) -> Array:
-        """c (n,) of Theta = c q."""
-        return tracked_constraint(self.inner).phase
-
     def foot(self, q: Array, v: Array) -> tuple[float, float, Array, float]:
         """x [m], x' [m/s], dx/dq (n,) [m] of the swing foot, and [m/s^2] the part of x'' at q'' = 0.
 
@@ -150,12 +145,12 @@ class FootBarrier(Around):
         The reference's posture q_r has the joints q_d and, without a motor, the angle that gives it the
         measured phase Theta = c q.
         """
-        c, p, terms = self.phase, len(m.terms.kappa), m.terms
+        c, p, terms = tracked_constraint(self.inner).phase, len(m.terms.kappa), m.terms
         r = own_reference(self.inner)(m.t, m.q, m.v)  # q_d, q_d', and q_d'' = drift + H q''
 
         # the coordinates (n,) of the reference, from its phase and its joints; linear, so for rates too; the
         # last coordinate, without a motor, follows from Theta = c q
-        def on_reference(theta: float, q_b: Array) -> Array:
+        def on_reference(theta: Array | float, q_b: Array) -> Array:
             return np.append(q_b, (theta - c[:p] @ q_b) / c[p])
 
         q_r, v_r = on_reference(c @ m.q, r.q_d), on_reference(c @ m.v, r.dq_d)

@@ -43,10 +43,9 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Controller, Measurement, body_of
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
 from biped_adrc.control.reference_reset import ResetPolynomial, reset_coefficients
-from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import PositiveFloat, PositiveFloats
 from biped_adrc.core.errors import GaitError, ReachError
 from biped_adrc.core.part import derived, with_fields
@@ -208,16 +207,9 @@ class Footstep(OuterLoop):
         """
         length, rates = gait.step_length(biped), tuple(np.ravel(speeds).tolist())
         usual = rates[-1] if rates else length / gait.period
-        return cls(
-            inner,
-            load_family(family, biped),
-            usual if speed is None else speed,
-            length if step is None else step,
-            tuple(map(float, stones)),
-            pole,
-            bandwidth,
-            speeds=rates,
-        )
+        kept, far = usual if speed is None else speed, length if step is None else step
+        own = load_family(family, biped), kept, far, tuple(map(float, stones)), pole, bandwidth
+        return cls(inner, *own, speeds=rates)
 
     def sampled(self, period: float) -> Self:
         return with_fields(self, inner=self.inner.sampled(period), period=period)

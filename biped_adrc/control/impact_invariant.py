@@ -45,13 +45,11 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.control.around import ContactWindow
-from biped_adrc.control.base import Measurement
+from biped_adrc.control.base import Measurement, body_of
 from biped_adrc.control.outer_loop import tracked_constraint
-from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.linear import solve_positive
-from biped_adrc.core.part import derived
 from biped_adrc.core.tree import chosen
 from biped_adrc.core.types import Array
 from biped_adrc.model.reduction import BodyTerms
@@ -78,6 +76,9 @@ class ImpactInvariant(ContactWindow):
     Raises InputError for a controller that tracks no virtual constraint, or lacks the error to be projected.
     """
 
+    # the Jacobian of the swing foot is in `Measurement.body`
+    needs_body = True
+
     rates: bool = True
     innovation: bool = False
 
@@ -95,17 +96,6 @@ class ImpactInvariant(ContactWindow):
             self.inner._has_no("rate error that could be projected", how.format("output"))
         if self.innovation and "correct" not in reads:
             self.inner._has_no("innovation that could be projected", how.format("correct"))
-
-    @derived
-    def phase(self) -> tuple[Array, float]:
-        """Row c (n,) of the phase Theta = c q, and the phase Theta- [rad] at which a step ends."""
-        h = tracked_constraint(self.inner)
-        return h.phase, float(h.theta_minus)
-
-    @property
-    def needs_body(self) -> bool:  # type: ignore[override]
-        """True, as the Jacobian of the swing foot is in `Measurement.body`."""
-        return True
 
     def output(self, s: Any, m: Measurement) -> Array:
         u = self.inner.output(s, m)
@@ -128,8 +118,8 @@ class ImpactInvariant(ContactWindow):
         """Whether at its rate now the phase is less than T from its end Theta-, before or behind it; 1 or 0
         where machine code is made of it.
         """
-        c, theta_minus = self.phase
-        left, rate = float(theta_minus - c.dot(m.q)), float(c.dot(m.v))
+        h = tracked_constraint(self.inner)
+        left, rate = float(h.theta_minus - h.phase.dot(m.q)), float(h.phase.dot(m.v))
         return abs(left) < self.until * abs(rate)  # until: T less the round-off of times
 
     def with_impulse(self, m: Measurement) -> Measurement:

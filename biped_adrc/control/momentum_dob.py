@@ -22,19 +22,11 @@ Measurement and input of the observer are of all n coordinates, where those of A
 """
 
 from dataclasses import dataclass, field
-from typing import ClassVar
 
 import numpy as np
 
-from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.tracking import (
-    TABLE_II,
-    Gains,
-    ObservingController,
-    body_of,
-    impulse_of,
-    tracking_torque,
-)
+from biped_adrc.control.base import Measurement, body_of, impulse_of, measured
+from biped_adrc.control.tracking import TABLE_II, Gains, ObservingController, tracking_torque
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
@@ -60,7 +52,7 @@ class MomentumDOBController(ObservingController):
     Theta'' is dropped, as (28) is printed. reset: what happens to the observer at impact.
     """
 
-    needs_body: ClassVar[bool] = True
+    needs_body = True
 
     reference: Reference
     observer: Observer = field(default_factory=lambda: MomentumObserver.from_bandwidth(200.0))

@@ -13,7 +13,6 @@ d xi [rad/s^2] leaves NPD an error of the size d xi / K_p [rad].
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from biped_adrc.control.base import Controller, Measurement, measured
 from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
@@ -33,7 +32,7 @@ class NPDController(Controller):
     1
     """
 
-    reads_impulse: ClassVar[tuple[str, ...]] = ("output",)
+    reads_impulse = ("output",)
 
     reference: Reference
     gains: Gains = TABLE_II

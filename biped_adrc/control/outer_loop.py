@@ -57,12 +57,13 @@ class OuterLoop(Around):
         corrections of loops further inside.
         """
 
-    @abstractmethod
     def own_jump(self, w: Any, h: Constraint, after: Measurement) -> Any:
-        """w after impact, from w before it; h is the constraint that the inner controller tracks after it.
+        """w after impact, from w before it; by default that of a start. h is the constraint that the inner
+        controller tracks after it.
 
         after: the measurement after the impact.
         """
+        return self.own_start(h, after)
 
     @abstractmethod
     def correction(self, w: Any) -> Correction:

@@ -18,12 +18,11 @@ Grizzle, Koditschek, IEEE TAC 48(1), 2003, for y.
 
 from dataclasses import dataclass, field
 
-from biped_adrc.control.base import Measurement
+from biped_adrc.control.base import Measurement, impulse_of
 from biped_adrc.control.tracking import (
     TABLE_II,
     Gains,
     ObservingController,
-    impulse_of,
     output_matrix,
     rate_error_change,
     unchanged,

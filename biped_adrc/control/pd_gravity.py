@@ -10,10 +10,9 @@ error stays finite, and falls with the gains.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
 
-from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.control.tracking import Gains, body_of, feedback
+from biped_adrc.control.base import Controller, Measurement, body_of
+from biped_adrc.control.tracking import Gains, feedback
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference
 
@@ -39,7 +38,7 @@ class PDGravityController(Controller):
     `Measurement.body`, and no other part of it.
     """
 
-    needs_body: ClassVar[bool] = True
+    needs_body = True
 
     reference: Reference
     gains: JointGains = JointGains()

@@ -64,9 +64,6 @@ def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) ->
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
 
 
-ShareFloat = Annotated[float, Range("a share in (0, 1]", lambda x: 0.0 < x <= 1.0)]
-
-
 @dataclass(frozen=True)
 class ReferenceReset(OuterLoop):
     """An outer loop that bends the constraint of `inner` to the state after each
@@ -81,7 +78,7 @@ class ReferenceReset(OuterLoop):
     1
     """
 
-    share: ShareFloat = 0.5
+    share: Annotated[float, Range("a share in (0, 1]", lambda x: 0.0 < x <= 1.0)] = 0.5
 
     @derived
     def range(self) -> tuple[float, float]:
@@ -102,9 +99,6 @@ class ReferenceReset(OuterLoop):
         slope = (m.v_b - r.dq_d) / np.where(bends, dtheta, 1.0)
         a = reset_coefficients(np.where(bends, x, 1.0), rate, m.q_b - r.q_d, slope)
         return np.where(bends, a, 0.0)
-
-    def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        return self.own_start(h, after)
 
     def correction(self, w: Array) -> Correction:
         return ResetPolynomial(w, *self.range)

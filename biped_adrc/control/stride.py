@@ -41,15 +41,10 @@ TORSO_LEAN = (1.0, 1.0, 0.0, 0.0)
 beta in the middle of the step. To lean forwards and back again slows the walk: the gains are negative."""
 
 
-def bump(s: float) -> tuple[float, float, float]:
-    """The bump b(s) = 64 s^3 (1 - s)^3 [1], db/ds, d2b/ds2; all are zero outside of [0, 1], and b(1/2) = 1."""
-    w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
-    return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
-
-
 @dataclass(frozen=True)
 class Bump:
-    """The correction c = shift b(s), which is added to the constraint h, for shift = beta d (p,) [rad].
+    """The correction c = shift b(s), which is added to the constraint h, for shift = beta d (p,) [rad]; b is 1
+    at s = 1/2, and zero outside of [0, 1].
 
     theta_plus: Theta+ [rad]. rate: 1 / (Theta- - Theta+) [1/rad].
     """
@@ -60,7 +55,10 @@ class Bump:
 
     def __call__(self, theta: float) -> tuple[Array, Array, Array]:
         """c [rad] and its two derivatives by Theta at theta [rad], each (p,)."""
-        b, db, ddb = bump(self.rate * (theta - self.theta_plus))
+        s = self.rate * (theta - self.theta_plus)
+        # b(s) = 64 w^3, with w = s (1 - s); w = 0 outside of [0, 1]
+        w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
+        b, db, ddb = 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
         return b * self.shift, self.rate * db * self.shift, self.rate**2 * ddb * self.shift
 
 
@@ -169,11 +167,6 @@ class StridePI(OuterLoop):
         """Bound on |I| [m/s], such that |K_I I| has the bound of |beta|; infinite for K_I = 0."""
         return self.gains.limit / abs(self.gains.K_I) if self.gains.K_I else math.inf
 
-    @derived
-    def phase(self) -> tuple[float, float]:
-        """Phase Theta+ [rad] at the start of a step, and 1 / (Theta- - Theta+) [1/rad]."""
-        h = tracked_constraint(self.inner)
-        return h.theta_plus, 1.0 / (h.theta_minus - h.theta_plus)
-
     def correction(self, w: StrideState) -> Correction:
-        return Bump(w.beta * np.array(self.direction), *self.phase)
+        h = tracked_constraint(self.inner)
+        return Bump(w.beta * np.array(self.direction), h.theta_plus, h.rate)

@@ -33,14 +33,14 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Controller, Measurement, impulse_of
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.linear import solve, solve_positive
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.model.reduction import BodyTerms, Reduction
+from biped_adrc.model.reduction import Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy, equal_poles
 
 _HIGHEST = 1e15
@@ -90,6 +90,11 @@ class Gains(Shown):
     def __post_init__(self) -> None:
         for name in ("K_p", "K_d"):
             object.__setattr__(self, name, per_joint(getattr(self, name), f"gain {name}"))
+
+    @property
+    def first(self) -> tuple[float, float]:
+        """K_p [1/s^2] and K_d [1/s] of the first joint."""
+        return float(np.ravel(self.K_p)[0]), float(np.ravel(self.K_d)[0])
 
     def check(self, p: int) -> None:
         """Raise InputError for gains per joint whose number is not p."""
@@ -182,29 +187,6 @@ def orthogonal_to(N: Array) -> Array:
     N' is the transpose of N.
     """
     return np.eye(len(N)) - N @ solve_positive(N.T @ N, N.T, "N' N of two impulses")
-
-
-def body_of(m: Measurement) -> BodyTerms:
-    """`m.body`, the body terms of the nominal model: gravity, the ground's force, the swing foot's Jacobian.
-
-    Raises InputError for a measurement made for a controller without `needs_body`.
-    """
-    if m.body is None:
-        raise InputError(
-            "the measurement has no body terms; expected those of the nominal model. Give the controller "
-            "needs_body = True, or the Measurement body=biped.body_terms(q, v)"
-        )
-    return m.body
-
-
-def impulse_of(m: Measurement) -> Array:
-    """`m.impulse` (n, 2) [1/(kg m)], the changes of the rates by an impulse on the striking foot.
-
-    Raises InputError for a measurement without it.
-    """
-    if m.impulse is None:
-        raise InputError("the measurement has no impulse; expected one made by ImpactInvariant")
-    return m.impulse
 
 
 class ObservingController(Controller):

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.core.errors import SingularError
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, ComplexArray
 
 
 def _lapack() -> Any:
@@ -64,3 +64,9 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     compiled code then has no search for pivots, hence no branch.
     """
     return solve(A, B, what)
+
+
+def sorted_eigenvalues(matrix: Array) -> ComplexArray:
+    """Eigenvalues (k,) of a matrix (k, k), the largest magnitude first."""
+    values = np.linalg.eigvals(matrix).astype(complex)
+    return values[np.argsort(-np.abs(values))]

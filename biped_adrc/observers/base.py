@@ -210,11 +210,6 @@ def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
     return (complex(-bandwidth),) * number
 
 
-def mean_bandwidth(poles: Sequence[complex]) -> float:
-    """Geometric mean of the magnitudes of the poles [rad/s]."""
-    return float(np.exp(np.mean(np.log(np.abs(poles)))))
-
-
 def check_chain(order: int, scale: float, what: str) -> None:
     """Raise InputError for an `order`, states per joint, above MOST_POLES, or a `scale` [rad/s] outside of
     SLOWEST to FASTEST.

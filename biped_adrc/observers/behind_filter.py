@@ -28,13 +28,7 @@ from biped_adrc.core.checks import Range
 from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices
-from biped_adrc.observers.base import (
-    ChainObserver,
-    ErrorSystem,
-    Estimate,
-    ResetPolicy,
-    equal_poles,
-)
+from biped_adrc.observers.base import ChainObserver, ErrorSystem, Estimate, ResetPolicy, equal_poles
 from biped_adrc.observers.gpi import InjectedChain, SampledChain, transition
 
 MOST_SHARE = 0.95

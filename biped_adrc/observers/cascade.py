@@ -27,22 +27,14 @@ Babayomi, Manojlovic, IEEE/CAA J. Automatica Sinica, 2024, 124995.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_count, check_positive
 from biped_adrc.core.types import Array, Indices
-from biped_adrc.observers.base import (
-    ChainObserver,
-    Estimate,
-    Observer,
-    ResetPolicy,
-    check_chain,
-    mean_bandwidth,
-)
-from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.observers.base import ChainObserver, Estimate, Observer, ResetPolicy, check_chain
+from biped_adrc.observers.gpi import GPIObserver, mean_bandwidth
 
 
 @dataclass(frozen=True)
@@ -55,7 +47,7 @@ class CascadeObserver(Observer):
     chains: tuple[ChainObserver, ...]
 
     MAKERS = ("from_bandwidth",)
-    lead: ClassVar[int] = 2
+    lead = 2
     """Number of integrators between disturbance and measurement, as of each level."""
 
     def __post_init__(self) -> None:

@@ -46,13 +46,7 @@ import numpy as np
 from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.part import SETUP, derived
 from biped_adrc.core.types import Array, read_only
-from biped_adrc.observers.base import (
-    ChainObserver,
-    ErrorSystem,
-    equal_poles,
-    mean_bandwidth,
-    stable_poles,
-)
+from biped_adrc.observers.base import ChainObserver, ErrorSystem, equal_poles, stable_poles
 
 TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 """Table I [rad/s]; the paper rounds them ("-11.020" and "-19.836" use the dot for thousands).
@@ -60,6 +54,11 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 >>> [round(pole) for pole in ba.TABLE_I[:4]]
 [-180, -324, -583, -1050]
 """
+
+
+def mean_bandwidth(poles: Sequence[complex]) -> float:
+    """Geometric mean of the magnitudes of the poles [rad/s]."""
+    return float(np.exp(np.mean(np.log(np.abs(poles)))))
 
 
 @dataclass(frozen=True)

@@ -47,8 +47,7 @@ class HalfGainObserver(InjectedChain):
 
         Raises InputError for a bandwidth or an order out of range.
         """
-        whole = GPIObserver.from_bandwidth(bandwidth, m)
-        return cls(whole.m, float(bandwidth))
+        return cls(GPIObserver.from_bandwidth(bandwidth, m).m, float(bandwidth))
 
     @cached_property
     def poles(self) -> tuple[complex, ...]:

@@ -82,20 +82,12 @@ class KalmanObserver(InjectedChain):
         """
         k, T = self.order, period
         R = self.measurement / T
-        Q = accumulated(k) * self.intensity * T ** (2 * k - 1) / R
-        # accumulated: Q of the module for W = T = 1, the scaled states' Q but for W T^(2 k - 1)
+        # Q of the module for W = T = 1: in states scaled by powers of T it is that of the filter but for the
+        # factor W T^(2 k - 1)
+        left = range(k - 1, -1, -1)  # k - i and k - j
+        rows = [[1.0 / (factorial(a) * factorial(b) * (a + b + 1)) for b in left] for a in left]
+        Q = np.array(rows) * self.intensity * T ** (2 * k - 1) / R
         # C = (1, 0, ..) measures the first state, and in units of R / T its noise has the variance 1
         P = solve_discrete_are(Phi.T, np.eye(1, k).T, Q, np.ones((1, 1)))
         # the gain P C^T / (C P C^T + 1)
         return P[:, 0] / (P[0, 0] + 1.0)
-
-
-def accumulated(order: int) -> Array:
-    """Covariance Q (k, k) that white noise of intensity W = 1 adds to a chain of k = `order` integrators in a
-    period T = 1.
-
-    For another period this is Q in states scaled by powers of T, without its factor T^(2 k - 1).
-    """
-    left = [order - i for i in range(1, order + 1)]
-    rows = [[1.0 / (factorial(a) * factorial(b) * (a + b + 1)) for b in left] for a in left]
-    return np.array(rows)

@@ -33,8 +33,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from biped_adrc.observers.base import equal_poles, mean_bandwidth, stable_poles
-from biped_adrc.observers.gpi import InjectedChain
+from biped_adrc.observers.base import equal_poles, stable_poles
+from biped_adrc.observers.gpi import InjectedChain, mean_bandwidth
 
 
 @dataclass(frozen=True)

@@ -39,9 +39,7 @@ from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
 
 Values = Mapping[str, Any]
-"""Values of a scenario by dotted name, in SI units."""
-PlainValues = Mapping[str, object]
-"""The values of one walk as JSON has them: what a worker receives."""
+"""Values of a scenario by dotted name, in SI units, as JSON has them: what a worker receives of one walk."""
 
 REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
 """Statuses that are no result of a walk: values that do not fit, a function that raised, a worker that died."""
@@ -53,7 +51,7 @@ _SUFFIXES = {"robot.name": ".toml", "gait.name": ".json"}
 """Values that may be a file's name in place of a registered name, and the file's suffix."""
 
 
-def scenario_of(values: PlainValues) -> Scenario:
+def scenario_of(values: Values) -> Scenario:
     """The scenario of values by name; where they say nothing of sampling, it has the hardware profile "ideal",
     sampled at 1 kHz.
 

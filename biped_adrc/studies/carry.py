@@ -38,8 +38,7 @@ from biped_adrc.studies.search import MOST_GROUPS, Candidate, Search, Walks
 from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, read_study, walk_names
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
-"""Candidates to be walked: number, values of the scenario, and the names that locate their walks (case,
-setting)."""
+"""Candidates to be walked: number, values of the scenario, names that locate their walks (case, setting)."""
 
 
 def study(
@@ -203,9 +202,8 @@ class _Searched:
         chosen = [(x.selected[0], case, "chosen") for case, x in choices.items()]
         before = [(x.candidates[0], case, "before") for case, x in choices.items()]
         every = [*chosen, *before] if self.study.cases else [*before, *chosen]
-        self.walk(
-            "test", [(c.number, c.values, walk_names(case=x, setting=s)) for c, x, s in every]
-        )
+        named = [(c.number, c.values, walk_names(case=x, setting=s)) for c, x, s in every]
+        self.walk("test", named)
         self.runner.total = self.runner.done  # `total` was the most that the search might need
         self.runner.tell()
 

@@ -14,13 +14,11 @@ better, and is never left out. A walk of which only the impulses at impact ask f
 ground (column `but_impact`) counts as feasible here.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
@@ -84,8 +82,7 @@ class Measure(Section):
     condition: str | None = None
     """The measure is of the walks under this condition alone; None for all."""
     counts: Literal["feasible", "made"] = "feasible"
-    """Which walks count with their number: the feasible ones, or all that made their last step; others rank
-    worst."""
+    """Walks that count with their number: feasible, or all that made their last step; others rank worst."""
 
     @property
     def sign(self) -> float:
@@ -154,7 +151,7 @@ class Limit(Measure):
     most: float | None = None
 
     @model_validator(mode="after")
-    def _one(self) -> Limit:
+    def _one(self) -> Self:
         """The limit itself. Raises ValueError for two bounds, or none."""
         if (self.least is None) == (self.most is None):
             raise ValueError("expected one of least and most")

@@ -9,7 +9,7 @@ candidate is one such choice, with a number, and its `Choice` has all of them, a
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from biped_adrc.analysis.statistics import Interval
 from biped_adrc.core.files import write_text
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.measure import OF_ALL, Row, is_counted
-from biped_adrc.studies.results import Group, Results, TableLine
+from biped_adrc.studies.results import Results, TableLine
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.view.pages import as_text, data_uri, rendered
 from biped_adrc.view.plots.study import dots_figure, map_figure, path_figure
@@ -160,7 +160,9 @@ def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) 
         # on a grid, walks that differ by a seed which changed nothing would weigh double in the mean of their
         # cell: `different` keeps one of them
         for x in found.different(g) if study.grid else g.rows:
-            where = _panel(g, x.at, axes)  # title of the panel
+            # title of the panel: the condition, the case unless that is an axis, the level of a third field
+            words = [g.condition, g.name if len(axes) > 1 else ""]
+            where = ", ".join(filter(None, (*words, *(f"{k} = {x.at[k]}" for k in axes[2:3]))))
             xs, ys, values = panels.setdefault(where, ([], [], []))
             xs.append(x.at[axes[0]])
             ys.append(x.at[axes[1]] if len(axes) > 1 else g.name)
@@ -168,15 +170,6 @@ def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) 
     shown = {name: (x, y, np.array(v)) for name, (x, y, v) in panels.items()}
     names = [name + Scenario.field_of(name).in_brackets for name in axes[:2]]
     return map_figure(shown, (names[0], names[1] if len(axes) > 1 else "case"), title, log)
-
-
-def _panel(g: Group, at: dict[str, Any], axes: Sequence[str]) -> str:
-    """Title of the panel in which a walk of group g is drawn: its condition, its case unless that is an axis,
-    and its level of the third of the axes. at: the values of the walk that vary, by name.
-    """
-    words = [g.condition, *([g.name] if len(axes) > 1 else [])]
-    words += [f"{name} = {at[name]}" for name in axes[2:3]]
-    return ", ".join(filter(None, words))
 
 
 def _named(column: str) -> str:

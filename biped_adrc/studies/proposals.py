@@ -16,8 +16,6 @@ limits and the objective stop a search. Which of them does is asked of settings 
 as many candidates for a variable as the others (`together`).
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 import warnings
@@ -44,6 +42,8 @@ _APART = 1000
 
 WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
 """A function that walks candidates, and returns their walks in the same order."""
+Report = Callable[[Candidate], None]
+"""A function that is called with the best candidate so far."""
 
 
 def optuna_library() -> Any:
@@ -73,11 +73,7 @@ class Round(NamedTuple):
 
 
 def searched(
-    search: Search,
-    base: Values,
-    walk: WalkAll,
-    report: Callable[[Candidate], None],
-    seed: int | None = None,
+    search: Search, base: Values, walk: WalkAll, report: Report, seed: int | None = None
 ) -> Iterator[Round]:
     """Search a case with the values `base`; yield it after each round.
 
@@ -86,14 +82,13 @@ def searched(
     generation's proposals miss limits that are known without a walk. Raises InputError where Optuna is missing.
     """
     proposals = _Proposals(optuna_library(), search, base, search.seed if seed is None else seed)
-    result, numbers = proposals.judged, itertools.count()
-    ends = dict[str, Span]()
+    result, ends = proposals.judged, dict[str, Span]()
     for doubled in range(search.doublings + 1):
         if doubled:
             proposals.widen(ends)
             proposals.refine(result, again=True)
         before, most = search.ranked(result)[:1], search.first(base) << doubled
-        _round(search, base, proposals, numbers, most, walk, report)
+        proposals.round(most, walk, report)
         best = search.ranked(result)[0]
         ends = proposals.ends(best)
         yield Round(result, search.gain(before[0], best) if before else math.inf, tuple(ends))
@@ -117,58 +112,22 @@ def _walked(found: Sequence[Candidate]) -> int:
     return sum(c.walked for c in found)
 
 
-def _round(
-    search: Search,
-    base: Values,
-    proposals: _Proposals,
-    numbers: Iterator[int],
-    most: int,
-    walk: WalkAll,
-    report: Callable[[Candidate], None],
-) -> None:
-    """Walk candidates, generation by generation, until `most` have been walked in all, and add them to
-    `proposals.judged`. There are fewer where all proposals of a generation miss limits that are known without a
-    walk.
-    """
-    while (left := most - _walked(proposals.judged)) > 0:
-        # those to be walked in this generation, and all that are judged in it
-        batch, new = list[Candidate](), list[Candidate]()
-        for number in itertools.islice(numbers, _ASKED * search.generation):
-            # without walks: judged by limits that need none; number 0 is the case itself, with no other values
-            c = search.judged(base, number, proposals.ask(number) if number else {})
-            # the case itself is walked in any event, as it is what the others are compared with
-            if number == 0 or not any(c.missed):
-                batch.append(c)
-            else:
-                new.append(c)
-                proposals.tell(c)
-            if len(batch) == min(left, search.generation):
-                break
-        if not batch:  # all of _ASKED proposals for each place missed limits: the search ends
-            break
-        for c, walks in zip(batch, walk(batch), strict=True):
-            new.append(search.judged(base, c.number, c.chosen, walks))
-            proposals.tell(new[-1])
-        proposals.judged += sorted(new, key=lambda c: c.number)
-        report(search.ranked(proposals.judged)[0])  # the best one so far
-        proposals.refine(proposals.judged)  # to CMA-ES, when TPE's part is spent
-
-
 class _Proposals:
     """Optuna's proposals for one case: first those of its sampler TPE, then (`refine`) those of CMA-ES.
 
     space: variable -> Optuna's distribution from which its values are proposed. fixed: values of the variables
     that are not proposed any more. open: Optuna's trials that are not judged yet, by number of the candidate.
     study: Optuna's, which proposes values and is told how good they were. refining: whether TPE's part is over.
-    ranges: of variables that are numbers, which `widen` moves. judged: all candidates so far.
+    ranges: of variables that are numbers, which `widen` moves. judged: all candidates so far. base: values of
+    the case. numbers: of the candidates to come.
     """
 
     def __init__(self, optuna: Any, search: Search, base: Values, seed: int) -> None:
         """optuna: the module. base: values of the case, by which variables without an effect are left out.
         seed: of the samplers.
         """
-        self.optuna, self.search, self.seed = optuna, search, seed
-        acting = search.acting(base)
+        self.optuna, self.search, self.base, self.seed = optuna, search, base, seed
+        self.numbers, acting = itertools.count(), search.acting(base)
         self.ranges = {n: v.range for n, v in acting.items() if v.range is not None}
         self.space = {n: self._distribution(n, v) for n, v in acting.items()}
         self.judged: list[Candidate] = []
@@ -187,6 +146,35 @@ class _Proposals:
         if r.whole:
             return of.IntDistribution(int(r.low), int(r.high))
         return of.FloatDistribution(r.low, r.high, log=r.scale == "log")
+
+    def round(self, most: int, walk: WalkAll, report: Report) -> None:
+        """Walk candidates, generation by generation, until `most` have been walked in all, and add them to
+        `judged`. There are fewer where all proposals of a generation miss limits that are known without a walk.
+        """
+        search, base = self.search, self.base
+        while (left := most - _walked(self.judged)) > 0:
+            # those to be walked in this generation, and all that are judged in it
+            batch, new = list[Candidate](), list[Candidate]()
+            for number in itertools.islice(self.numbers, _ASKED * search.generation):
+                # without walks: judged by limits that need none; number 0 is the case itself, with no other
+                # values
+                c = search.judged(base, number, self.ask(number) if number else {})
+                # the case itself is walked in any event, as it is what the others are compared with
+                if number == 0 or not any(c.missed):
+                    batch.append(c)
+                else:
+                    new.append(c)
+                    self.tell(c)
+                if len(batch) == min(left, search.generation):
+                    break
+            if not batch:  # all of _ASKED proposals for each place missed limits: the search ends
+                break
+            for c, walks in zip(batch, walk(batch), strict=True):
+                new.append(search.judged(base, c.number, c.chosen, walks))
+                self.tell(new[-1])
+            self.judged += sorted(new, key=lambda c: c.number)
+            report(search.ranked(self.judged)[0])  # the best one so far
+            self.refine(self.judged)  # to CMA-ES, when TPE's part is spent
 
     def ask(self, number: int) -> dict[str, Any]:
         """Propose values, by name, of all variables that may have an effect for the candidate `number`."""

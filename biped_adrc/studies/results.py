@@ -205,8 +205,7 @@ class Choice(NamedTuple):
     candidates: tuple[Candidate, ...]
     """All candidates by number, judged on the first set of walks ("search")."""
     selected: tuple[Candidate, ...]
-    """The candidates that were walked on the second set ("choice"), as judged there, best first: the first one
-    was chosen."""
+    """The candidates walked on the second set ("choice"), as judged there, best first: the first was chosen."""
     stop: str = ""
     """What stopped the search, in words."""
 
@@ -238,8 +237,7 @@ class TableLine(NamedTuple):
     median: Interval
     """Median of the study's measure over these walks, in the unit of its column."""
     ratio: Paired | None
-    """Measure of this case over that of the first case under the same condition, walk by walk; None for the
-    first case itself."""
+    """Measure of this case over that of the first under this condition, walk by walk; None for the first."""
 
 
 @dataclass(frozen=True)
@@ -251,8 +249,7 @@ class Results(Shown):
     choices: Mapping[str, Choice] = field(default_factory=dict)
     """What the search found, by name of the case; empty without a search."""
     failures: tuple[str, ...] = ()
-    """A sentence on each case of which no candidate keeps all limits; such a case is not walked on the test
-    set."""
+    """A sentence on each case of which no candidate keeps all limits; it is not walked on the test set."""
 
     def results(self) -> Iterator[Result]:
         """Finished walks in the order of the study."""
@@ -304,7 +301,7 @@ class Results(Shown):
         (`Study.drawn`) numbers stand without interval and p-value.
         """
         # first: condition -> its first group. paired: ratio of two lists of numbers, entry by entry, with an
-        # interval and a p-value; share and median: with an interval; _alone: the number without its interval
+        # interval and a p-value; share and median: with an interval; Interval(x): the number x alone
         first, lines = dict[str, Group](), []
         for g in self.groups:
             reference, rows = first.setdefault(g.condition, g), self.different(g)
@@ -313,8 +310,8 @@ class Results(Shown):
             numbers = [self.study.measure.number(x.row) for x in rows]
             counted, middle = share(feasible, len(rows)), median(numbers)
             if not self.study.drawn:
-                counted, middle = _alone(counted), _alone(middle)
-                ratio = ratio and Paired(_alone(ratio.ratio), float("nan"), ratio.pairs)
+                counted, middle = Interval(counted.value), Interval(middle.value)
+                ratio = ratio and Paired(Interval(ratio.ratio.value), float("nan"), ratio.pairs)
             lines.append(TableLine(g.name, g.condition, len(rows), counted, made, middle, ratio))
         return lines
 
@@ -387,8 +384,3 @@ def _by_place(g: Group) -> dict[tuple[str, int | None], Result]:
     apart = ("case", "setting", "candidate", SEED)
     keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)
     return {(key, x.at.get(SEED)): x for key, x in zip(keys, g.rows, strict=True)}
-
-
-def _alone(x: Interval) -> Interval:
-    """The number alone: NaN for both ends of its interval, since walks that are no sample have none."""
-    return Interval(x.value, float("nan"), float("nan"))

@@ -50,15 +50,7 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk_scenario
-from biped_adrc.studies.build import (
-    NO_WALK,
-    RAISED,
-    REFUSED,
-    PlainValues,
-    Trial,
-    scenario_of,
-    trial_of,
-)
+from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Trial, Values, scenario_of, trial_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
@@ -66,7 +58,7 @@ WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
-Function = Callable[[Sequence[PlainValues]], Sequence[Any]]
+Function = Callable[[Sequence[Values]], Sequence[Any]]
 """What workers run: from records (values of one walk each) to a row of plain values for each, in order."""
 JUDGED = (
     *("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "riser"),
@@ -83,7 +75,7 @@ a table is judged without it, by compiled loops beside which other threads run."
 
 
 def rows_of(
-    function: Function, records: Sequence[PlainValues], folders: Mapping[str, str] | None = None
+    function: Function, records: Sequence[Values], folders: Mapping[str, str] | None = None
 ) -> list[tuple[str, str | None]]:
     """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
@@ -104,7 +96,7 @@ def rows_of(
         return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
 
 
-def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[WalkRow]:
+def run_trials(records: Sequence[Values], aside: bool = False) -> list[WalkRow]:
     """Walk the records, and return a row with all columns for each, in their order. aside: whether rows have a
     value of the column `rounding`, for which a walk from a start beside the first one is made too.
 
@@ -180,16 +172,10 @@ def _counts(t: Trial, walked: BatchWalk, aside: bool) -> WalkRow:
     plant = walker.plant
     n = None if walked.table is None else Nodes(walked.table, plant.n, plant.p)
     # NO_WALK: statuses of what was no walk
-    row: WalkRow = {
-        "status": status,
-        "detail": walked.detail,
-        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
-        "impacts": walked.impacts,
-        "t_end": walked.t_end,
-        "engine": walked.engine,
-        **_pace(t, walked, n),
-    }
+    row: WalkRow = {x: getattr(walked, x) for x in ("detail", "impacts", "t_end", "engine")}
+    row |= {"status": status, **_pace(t, walked, n)}
     if status not in NO_WALK:
+        row["survived"] = int(walked.status is Status.COMPLETED)
         # until `counted` has looked at the nodes: not feasible, as if all limits, named in REASONS, were broken
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
         row |= {"rounding": walk_scenario(s).rounding()} if aside and t.loop is None else {}
@@ -248,16 +234,10 @@ def counted_in(walk: Walk, limits: Limits) -> WalkRow:
     """The columns of `counted` for a walk whose whole trajectory is stored; on soft ground those of the feet
     too, and with a detector of touchdowns those of its delays and faults.
     """
-    return {
-        **counted(
-            Nodes.of(walk.signals),
-            Nodes.of(walk.signals.before_fall),
-            walk.feasible_within(limits),
-            walk.soft,
-        ),
-        **(_on_the_ground(walk) if walk.soft else {}),
-        **({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict()),
-    }
+    nodes, tracked = Nodes.of(walk.signals), Nodes.of(walk.signals.before_fall)
+    row = counted(nodes, tracked, walk.feasible_within(limits), walk.soft)
+    row |= _on_the_ground(walk) if walk.soft else {}
+    return row | ({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict())
 
 
 def _on_the_ground(walk: Walk) -> WalkRow:

@@ -11,8 +11,6 @@ one that kills its worker again has a row with the status CRASHED. Rows depend o
 workers, their number, or the size of chunks.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 import math
@@ -20,7 +18,7 @@ import os
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from concurrent import futures
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from biped_adrc.core.errors import SimulationError
 from biped_adrc.core.processes import NO_GUARD, cores, end_all, processes
@@ -68,7 +66,7 @@ class Crew:
         """Start the executor, so that its processes load the package while the caller goes on."""
         self.start()
 
-    def __enter__(self) -> Crew:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:

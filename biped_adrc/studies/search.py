@@ -36,8 +36,6 @@ and does not count in the budget. The case itself is candidate number 0. How can
 a search ends, is in `proposals`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
@@ -122,6 +120,28 @@ Variables = Annotated[
 """Variables by name, read with their units."""
 
 
+class Candidate(NamedTuple):
+    """A setting that was proposed, and how its walks were judged."""
+
+    number: int
+    """Its place in the search; 0 is the setting of the case itself."""
+    chosen: dict[str, Any]
+    """A value of every variable; empty for number 0."""
+    values: dict[str, Any]
+    """All values of its scenario, without condition and seed."""
+    objective: float
+    """In the unit of its column; infinite, on the worse side, where walks that are infeasible decide it."""
+    missed: tuple[float, ...]
+    """By how much each limit is missed, as a share of its bound; 0 where it is kept."""
+    walked: bool
+    """False where it missed a limit that is known without a walk, so that no walk was spent on it."""
+
+    @property
+    def feasible(self) -> bool:
+        """Whether the candidate was walked and keeps all limits."""
+        return self.walked and not any(self.missed)
+
+
 class Search(Section):
     """A search: the variables that it changes, its objective and limits, and the walks by which it judges
     them.
@@ -142,8 +162,7 @@ class Search(Section):
     finalists: int = Field(default=5, ge=1)
     """Candidates that are walked on the second set together."""
     seed: int = Field(default=0, ge=0)
-    """Seed of the sampler for the first case; the next one has this + 1, so that equal cases are several
-    searches."""
+    """Seed of the sampler for the first case, + 1 for the next: so equal cases are several searches."""
 
     @property
     def measures(self) -> tuple[Measure, ...]:
@@ -262,25 +281,3 @@ class Search(Section):
         for choice in ({}, *choices):
             candidate = self.values(values, middle | choice)
             yield {n: candidate[n] for n in middle if n in candidate}
-
-
-class Candidate(NamedTuple):
-    """A setting that was proposed, and how its walks were judged."""
-
-    number: int
-    """Its place in the search; 0 is the setting of the case itself."""
-    chosen: dict[str, Any]
-    """A value of every variable; empty for number 0."""
-    values: dict[str, Any]
-    """All values of its scenario, without condition and seed."""
-    objective: float
-    """In the unit of its column; infinite, on the worse side, where walks that are infeasible decide it."""
-    missed: tuple[float, ...]
-    """By how much each limit is missed, as a share of its bound; 0 where it is kept."""
-    walked: bool
-    """False where it missed a limit that is known without a walk, so that no walk was spent on it."""
-
-    @property
-    def feasible(self) -> bool:
-        """Whether the candidate was walked and keeps all limits."""
-        return self.walked and not any(self.missed)

@@ -8,11 +8,9 @@ and checks a value for it, such as "2 ms" -> 0.002. A grid has levels of some fi
 case or a condition is a set of values with a name; a seed is `run.seed` of a scenario.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Any, Literal, Self, TypeVar
 
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
@@ -74,7 +72,7 @@ class Span(Section):
     """Whether its numbers are integers only, both ends included."""
 
     @model_validator(mode="after")
-    def _ordered(self) -> Span:
+    def _ordered(self) -> Self:
         """The span. Raises ValueError for low >= high, and for integers or numbers <= 0 on a log scale."""
         log = self.scale == "log"
         if self.low >= self.high or (log and (self.whole or self.low <= 0.0)):
@@ -109,7 +107,7 @@ class Span(Section):
         by = math.copysign(max(1.0, round(abs(by))), w) if self.whole else by
         return max(x + by, 0.0) if self.low >= 0.0 else x + by
 
-    def beyond(self, x: float) -> Span | None:
+    def beyond(self, x: float) -> Self | None:
         """The interval with the end near which x stands moved outwards by its width; None where x stands at
         none, or at 0, which stays an end.
         """
@@ -187,8 +185,6 @@ def _seeds(value: object) -> object:
 
 Named = Annotated[dict[str, Any], BeforeValidator(lambda value: by_entry(value, Scenario.value_of))]
 """Values of a scenario by name, read with their units."""
-Sets = dict[str, Named]
-"""Values by name of the case or condition."""
 Grid = Annotated[
     dict[str, tuple[Any, ...]], BeforeValidator(lambda value: by_entry(value, _levels))
 ]

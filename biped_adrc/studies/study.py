@@ -24,8 +24,6 @@ Whatever is wrong in a file is reported in one error. Values are numbers in the 
 Names of values are those of a scenario, such as "controller.K_p".
 """
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import json
@@ -34,7 +32,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from pydantic import Field, ValidationError, model_validator
 
@@ -43,10 +41,10 @@ from biped_adrc.core.files import beside, reading
 from biped_adrc.core.registry import FOLDERS, is_own, top_of
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.scenario import Scenario, read_scenario
-from biped_adrc.studies.build import SEED, PlainValues, differ, scenario_of, trial_of, versions_of
+from biped_adrc.studies.build import SEED, Values, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Aim, Column, Limit, Measure
 from biped_adrc.studies.search import Search, Variable, WalkSets
-from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds, Sets
+from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds
 
 Undrawn = frozenset[tuple[str, str]]
 """Pairs (case, condition) in whose walks nothing that acts is drawn from the seed: each is walked once."""
@@ -78,8 +76,8 @@ class Point(NamedTuple):
     """
 
     place: int
-    at: PlainValues
-    record: PlainValues
+    at: Values
+    record: Values
 
 
 class Study(Section):
@@ -93,15 +91,15 @@ class Study(Section):
     column: Column = "rms_error"
     """The column of the results whose median the table and the page show."""
     base: Named = Field(default_factory=dict)
-    cases: Sets = Field(default_factory=dict)
-    conditions: Sets = Field(default_factory=dict)
+    cases: dict[str, Named] = Field(default_factory=dict)
+    conditions: dict[str, Named] = Field(default_factory=dict)
     grid: Grid = Field(default_factory=dict)
     draw: Draw | None = None
     seeds: Seeds = ()
     search: Search | None = None
 
     @model_validator(mode="after")
-    def _together(self) -> Study:
+    def _together(self) -> Self:
         """Check entries against each other. Raises ValueError with all that do not go together."""
         # _twice: values that two places set; _searched: faults of the search
         wrong = [*self._twice(), *(() if self.search is None else self._searched(self.search))]
@@ -184,9 +182,7 @@ class Study(Section):
         sets = () if self.search is None else self.search.walks
         return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
 
-    def seeded(
-        self, seeds: Sequence[int], at: PlainValues, undrawn: Undrawn
-    ) -> list[dict[str, int]]:
+    def seeded(self, seeds: Sequence[int], at: Values, undrawn: Undrawn) -> list[dict[str, int]]:
         """A table {"run.seed": seed} for each seed, that is for each walk. One empty table, for a single walk,
         where there are no seeds, or where case and condition in `at` are a pair of `undrawn`.
         """

@@ -145,8 +145,8 @@ def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
     np.testing.assert_allclose(found.curve(mu)[0], flat.curve(mu)[0], rtol=0.0, atol=1e-9)
     assert found.curve(mu)[1:] == pytest.approx(flat.curve(mu)[1:], abs=1e-9)
     # speed at the end of the first step, lengths of the step before and of it, speed and length of the second
-    W, J = TwoSteps.of(biped, flat, 0.7, 0.34, 0.34, 0.8, 0.4).numbers()[-2:]
-    delta2, W_next, J_next = TwoSteps.of(biped, flat, 0.8, 0.34, 0.4, 0.8, 0.36).numbers()[:3]
+    W, J = TwoSteps.of(biped, flat, (0.7, 0.34, 0.34, 0.8, 0.4)).numbers()[-2:]
+    delta2, W_next, J_next = TwoSteps.of(biped, flat, (0.8, 0.34, 0.4, 0.8, 0.36)).numbers()[:3]
     exact = delta2 * (400.0 + W - 6.0 * J) + W_next - 6.0 * J_next
     for steps in (found.steps, flat.steps):
         # from sigma^2 = 400 at v 0.7, 0.34 m before, to the end at 0.8 m/s and 0.4 m; then 0.36 m
@@ -284,7 +284,7 @@ def test_a_step_may_end_where_ground_and_motors_bear_it(biped, name):
         assert family.low[0] < min(last, last + beyond) < max(last, last + beyond) < family.high[0]
         y = family.steps.cycle_square(v, L)
         ends = (v, last, last + beyond)
-        borne = [TwoSteps.of(biped, family, v, L, L, x, L).keeps(y, limits) for x in ends]
+        borne = [TwoSteps.of(biped, family, (v, L, L, x, L)).keeps(y, limits) for x in ends]
         assert borne == [True, True, False]
 
 
@@ -401,7 +401,7 @@ def test_the_stored_map_is_that_of_the_integrals_over_a_step(biped):
     low, high = np.array(family.low), np.array(family.high)
     (v, L), (end, ahead) = 0.5 * (low + high), 0.45 * low + 0.55 * high
     for x in ((v, L, L, v, L), (v, L, ahead, end, L)):
-        found = TwoSteps.of(biped, family, *x).numbers()
+        found = TwoSteps.of(biped, family, x).numbers()
         at = dict(zip(("v", "before", "L", "end", "ahead"), x, strict=True))
         stored = family.steps.to_impact(np.array([at[k] for k in ("v", "end", "L", "ahead")]))
         decision = family.steps.to_decision(

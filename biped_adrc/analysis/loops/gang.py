@@ -85,19 +85,14 @@ class Gang(Shown):
 
     def rows(self, spec: Specification) -> tuple[tuple[str, str, str], ...]:
         """A table of texts: peaks of the six with their frequencies, bandwidth, and the numbers of `spec`."""
-        peaks = {name: self.peak(name) for name in GANG_UNITS}
-        numbers = (
-            ("bandwidth, |S| below 0.71", f"{self.bandwidth:.4g} rad/s"),
-            ("delay margin", f"{1e3 * spec.delay_margin:.3g} ms"),
-            ("disk margin", f"{spec.disk_margin:.3g}"),
-            ("ripple", f"{spec.ripple:.3g} N m"),
-        )
+        peaks = ((k, unit, *self.peak(k)) for k, unit in GANG_UNITS.items())
+        rows = [(f"|{k}|", f"{x:.3g} {unit}", f"{w:.4g} rad/s") for k, unit, x, w in peaks]
         return (
-            *(
-                (f"|{k}|", f"{x:.3g} {GANG_UNITS[k]}", f"{w:.4g} rad/s")
-                for k, (x, w) in peaks.items()
-            ),
-            *((*each, "") for each in numbers),
+            *rows,
+            ("bandwidth, |S| below 0.71", f"{self.bandwidth:.4g} rad/s", ""),
+            ("delay margin", f"{1e3 * spec.delay_margin:.3g} ms", ""),
+            ("disk margin", f"{spec.disk_margin:.3g}", ""),
+            ("ripple", f"{spec.ripple:.3g} N m", ""),
         )
 
     def peak(self, name: str) -> tuple[float, float]:

@@ -45,12 +45,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.loops.frozen_gait import (
-    FrozenGait,
-    TickMatrices,
-    linear_twin,
-    tick_matrices,
-)
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait, linear_twin, tick_matrices
 from biped_adrc.analysis.loops.walker_loop import WalkerLoops
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.shown import Shown
@@ -166,7 +161,8 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     T, delay, slow = twin.clock.period, twin.clock.delay, _OWN * gait.falling
     lag = 0.0 if walker.motors is None else walker.motors.lag
     # tick: the linearised sample instant. The new axis is that of the robots, for which the tick is the same
-    tick = TickMatrices(*(x[:, np.newaxis] for x in tick_matrices(twin, gait.points)))
+    tick = tick_matrices(twin, gait.points)
+    tick = type(tick)._make(x[:, np.newaxis] for x in tick)
     # of each point its A (robots, 2 n, 2 n) and B (robots, 2 n, p), (q, q')' = A (q, q') + B u
     A, B = (np.array([getattr(at, name) for at in gait.points]) for name in "AB")
     loops = WalkerLoops(tick, A, B, T, delay, lag, slow)

@@ -27,13 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.observer.loop import (
-    ObserverLoop,
-    SampledLoop,
-    first_gains,
-    largest_delay,
-    last_true,
-)
+from biped_adrc.analysis.observer.loop import ObserverLoop, SampledLoop, largest_delay, last_true
 from biped_adrc.control.tracking import Gains
 from biped_adrc.observers.gpi import GPIObserver
 
@@ -137,6 +131,17 @@ class OnHardware:
         """|e / xi| at the frequency REJECTED [s^2], in continuous time: tracking error per disturbance."""
         return float(np.abs(self.loop.tracking_error(np.array([REJECTED])))[0])
 
+    @property
+    def without_observer(self) -> float:
+        """|e / xi| at REJECTED [s^2] with K_p and K_d alone, 1 / |s^2 + K_d s + K_p|, for comparison."""
+        (K_p, K_d), s = self.gains.first, 1j * REJECTED  # s = i w
+        return float(1.0 / abs(s**2 + K_d * s + K_p))
+
+    @cached_property
+    def recommended(self) -> tuple[Recommended, ...]:
+        """For each m of ORDERS the largest bandwidth that encoders, period and delay allow."""
+        return tuple(recommend(self.hardware, self.gains, m) for m in ORDERS)
+
 
 def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
     """Find the largest bandwidth of m + 2 equal poles within the lowest range of bandwidths that are allowed.
@@ -163,10 +168,3 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
     # w is known to 1e-6 of it, so at 2e-6 above it the criterion that excludes larger ones holds for certain
     best, because = candidate(w), candidate(w * (1.0 + 2e-6)).obstacle
     return Recommended(m, w, because, best.ripple, largest_delay(best.sampled()), best.rejection)
-
-
-def without_observer(gains: Gains) -> float:
-    """|e / xi| at REJECTED [s^2] with K_p and K_d alone, 1 / |s^2 + K_d s + K_p|, for comparison."""
-    K_p, K_d = first_gains(gains)
-    s = 1j * REJECTED  # i w
-    return float(1.0 / abs(s**2 + K_d * s + K_p))

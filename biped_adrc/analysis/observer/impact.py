@@ -95,21 +95,6 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     return ImpactStates(before, after, biped.swap, biped.reduction(*start).kappa_inverse)
 
 
-def reset_error(observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy) -> Array:
-    """The error e(0+) (order, p) in scaled states under a reset policy: true states minus estimates.
-
-    Before the impact the estimates are the true states.
-    """
-    # state i, counted from 0, is scaled by scale^i
-    units = observer.scale ** np.arange(observer.order)[:, np.newaxis]
-    before, after = impact.before / units, impact.after / units
-    y, dy, *xi = impact.after
-    # the model's xi for the reset policy MODEL; for m = 0 the chain has none
-    xi_0 = xi[0] if xi else np.zeros_like(y)
-    estimate = observer.reset(before, policy, impact.swap, y, dy, xi_0)
-    return after - estimate
-
-
 def impact_peak(
     observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy, gains: Gains = TABLE_II
 ) -> ImpactPeak:
@@ -119,8 +104,14 @@ def impact_peak(
     gains: K_p [1/s^2] and K_d [1/s] of the torque. For m = 0 the observer has no estimate of xi, and e_3 counts
     as 0.
     """
-    w, k = observer.scale, observer.order
-    E = reset_error(observer, impact, policy)
+    w, k, (y, dy, *xi) = observer.scale, observer.order, impact.after
+    # state i, counted from 0, is scaled by w^i
+    units = w ** np.arange(k)[:, np.newaxis]
+    before, after = impact.before / units, impact.after / units
+    # the model's xi for the reset policy MODEL; for m = 0 the chain has none
+    xi_0 = xi[0] if xi else np.zeros_like(y)
+    # E (k, p): e(0+) in scaled states, true states minus estimates, which are the true states before the impact
+    E = after - observer.reset(before, policy, impact.swap, y, dy, xi_0)
     A = observer.error_system().A
     rates = np.abs(np.real(observer.poles))
     # INSTANTS times from 1 % of the fastest time constant to LONG time constants of the slowest pole

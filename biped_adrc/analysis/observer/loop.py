@@ -91,7 +91,7 @@ class ObserverLoop:
     @property
     def frequencies(self) -> Array:
         """Grid of frequencies (GRID,) [rad/s], from far below the slowest pole to far above the fastest."""
-        (K_p, K_d), rates = first_gains(self.gains), np.abs(self.observer.poles)
+        (K_p, K_d), rates = self.gains.first, np.abs(self.observer.poles)
         slow, fast = min(rates.min(), np.sqrt(K_p)), max(rates.max(), K_d)
         return np.geomspace(0.01 * slow, 100.0 * fast, GRID)
 
@@ -104,7 +104,7 @@ class ObserverLoop:
     @cached_property
     def _feedback(self) -> Array:
         """Coefficients (3,) of the feedback's polynomial s^2 + K_d s + K_p, dimensionless."""
-        (K_p, K_d), w = first_gains(self.gains), self.observer.scale
+        (K_p, K_d), w = self.gains.first, self.observer.scale
         return np.array([1.0, K_d / w, K_p / w**2])
 
     def _Q(self, printed: bool = False) -> Array:
@@ -191,11 +191,6 @@ class ObserverLoop:
         return DelayMargin(float(delays[first]), float(at[first]))
 
 
-def first_gains(gains: Gains) -> tuple[float, float]:
-    """K_p [1/s^2] and K_d [1/s] of the first joint."""
-    return float(np.ravel(gains.K_p)[0]), float(np.ravel(gains.K_d)[0])
-
-
 SHORTEST, LONGEST = 1e-6, 0.1
 """Range of the periods that are tried for the largest stable one [s]."""
 RATIO = 1.05
@@ -268,7 +263,7 @@ class SampledLoop:
         o = self.observer.sampled(T)  # its sampled form, with L, Phi and Gamma
         correction = np.outer(o.L, e + n - Z[0])
         Z_k = Z + correction
-        K_p, K_d = first_gains(self.gains)
+        K_p, K_d = self.gains.first
         F = np.zeros(k)
         # F = T^2 (K_p, K_d / T, 1 / T^2), for Z = (x1^, T x2^, T^2 xi^, ..); without xi^ for m = 0, where k = 2
         F[:3] = (T**2 * np.array([K_p, K_d / T, T**-2]))[:k]
@@ -283,11 +278,6 @@ class SampledLoop:
         # sent[1:] - line: the torques on their way move up by one place
         changes = np.vstack((rate + push, kick, dZ, sent[1:] - line))
         return StepMatrices(changes[:, :size], changes[:, size:], a[:size], a[size:])
-
-    @property
-    def matrix(self) -> Array:
-        """The matrix 1 + M (s, s) of X_(k+1) = (1 + M) X_k, in the scaled variables of `step`."""
-        return self.step.M + np.eye(len(self.step.M))
 
     @cached_property
     def spectral_radius(self) -> float:
@@ -308,8 +298,8 @@ class SampledLoop:
         if not self.stable:
             return np.nan
         # column 1 of the inputs (T^2 xi, n) is n; the output is T^2 a
-        _, B, C, D = self.step
-        P = covariance(self.matrix, np.outer(B[:, 1], B[:, 1]))
+        M, B, C, D = self.step
+        P = covariance(M + np.eye(len(M)), np.outer(B[:, 1], B[:, 1]))
         return float(np.sqrt(C @ P @ C + D[1] ** 2)) * sigma / self.period**2
 
 

@@ -23,16 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.observer.choice import (
-    KAPPA_RATIOS,
-    ORDERS,
-    SHARE,
-    Hardware,
-    OnHardware,
-    Recommended,
-    recommend,
-    without_observer,
-)
+from biped_adrc.analysis.observer.choice import KAPPA_RATIOS, SHARE, Hardware, OnHardware
 from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
 from biped_adrc.analysis.observer.loop import largest_delay, largest_period
 from biped_adrc.control.tracking import TABLE_II, Gains
@@ -82,11 +73,6 @@ class ObserverReport(OnHardware):
         unknown, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
         return unknown, known
 
-    @cached_property
-    def recommended(self) -> tuple[Recommended, ...]:
-        """For each m of ORDERS the largest bandwidth that encoders, period and delay allow."""
-        return tuple(recommend(self.hardware, self.gains, m) for m in ORDERS)
-
     @property
     def runs(self) -> bool:
         """Whether the observer is allowed: stable for all KAPPA_RATIOS, the ripple within SHARE of the limit.
@@ -100,7 +86,7 @@ class ObserverReport(OnHardware):
         """Tracking error that a 5 Hz disturbance leaves, over the error with K_p and K_d alone [1]; above 1 the
         observer does harm.
         """
-        return self.rejection / without_observer(self.gains)
+        return self.rejection / self.without_observer
 
     # -- words ---------------------------------------------------------------------------------------
     @property
@@ -163,8 +149,7 @@ class ObserverReport(OnHardware):
     @property
     def sections(self) -> list[_Section]:
         """All tables: gains, stability, estimate, impact and allowed bandwidths."""
-        tables = (self._gains, self._stability, self._estimate, self._impact, self._allowed)
-        return [table() for table in tables]
+        return [self._gains(), self._stability(), self._estimate(), self._impact(), self._allowed()]
 
     def text(self) -> str:
         """The verdict and the tables it is based on."""
@@ -233,7 +218,7 @@ class ObserverReport(OnHardware):
             margin, bandwidth = milliseconds(r.delay_margin), f"{r.bandwidth:.4g} rad/s"
             noise, error = f"{r.ripple:.3g} N m", f"{r.rejection:.3g}"
             rows.append((str(r.m), bandwidth, r.because, noise, margin, error))
-        rows.append(("none", "", "", "", "", f"{without_observer(self.gains):.3g}"))
+        rows.append(("none", "", "", "", "", f"{self.without_observer:.3g}"))
         title = (
             f"Largest bandwidth of m + 2 equal poles: rms torque of one count within {100 * SHARE:g} % of "
             f"the limit, stable for kappa off by {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g}"

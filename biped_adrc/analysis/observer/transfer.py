@@ -33,7 +33,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.observer.loop import first_gains
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.core.types import Array
 from biped_adrc.observers.gpi import InjectedChain
@@ -57,7 +56,7 @@ def transfer_functions(
 
     gains: K_p and K_d, of which those of the first joint count. Raises InputError for a period that is not > 0.
     """
-    (K_p, K_d), k = first_gains(gains), observer.order
+    (K_p, K_d), k = gains.first, observer.order
     if period is None:
         chi = np.concatenate(([1.0], observer.gains))
         product = np.asarray(np.polymul([1.0, K_d, K_p], chi), dtype=float)  # s^(m+2) Q + P
