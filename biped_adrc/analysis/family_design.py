@@ -131,12 +131,18 @@ def design_family(
     curves = PolynomialMap.fit(mu, np.array(y), CURVE_DEGREE)
     # a placeholder: the functions below need the family's curves alone, and give its real `steps`
     empty = PolynomialMap(((0,),), np.zeros((1, 1)), np.zeros(1), np.ones(1))
-    # OF_LIBRARY: entries that are the same for all gaits
-    about = {**{k: first[k] for k in OF_LIBRARY}, **provenance}
-    maps = curves, StepMap(empty, empty, empty, empty)
-    ends = mu.min(axis=0), mu.max(axis=0)
-    own = biped.description.name, biped.preset, *maps, constraints[0].phase, *ends
-    family = GaitFamily(name, *own, provenance=about)
+    family = GaitFamily(
+        name,
+        biped.description.name,
+        biped.preset,
+        curves,
+        StepMap(empty, empty, empty, empty),
+        constraints[0].phase,
+        mu.min(axis=0),
+        mu.max(axis=0),
+        # OF_LIBRARY: entries that are the same for all gaits
+        provenance={**{k: first[k] for k in OF_LIBRARY}, **provenance},
+    )
     # _member: v and L with the friction, peak torque and least F_N of the periodic step
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high

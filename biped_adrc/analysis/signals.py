@@ -287,9 +287,19 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     r = r._replace(potential=r.potential + walker.plant.weight * foot[:, 1])
     t = np.concatenate([arc.t for arc in arcs])
     step = np.concatenate([np.full(len(arc.t), arc.mode.step) for arc in arcs])
-    tracked = {"theta": q @ c, "dtheta": v @ c, "error": q[:, : walker.plant.p] - r.q_d}
-    stands = {"foothold": foot[:, 0], "foothold_height": foot[:, 1], "outside": outside}
-    return Signals(t=t, step=step, q=q, v=v, **tracked, **stands, **r._asdict())
+    return Signals(
+        t=t,
+        step=step,
+        q=q,
+        v=v,
+        theta=q @ c,
+        dtheta=v @ c,
+        error=q[:, : walker.plant.p] - r.q_d,
+        foothold=foot[:, 0],
+        foothold_height=foot[:, 1],
+        outside=outside,
+        **r._asdict(),
+    )
 
 
 # -- on another plant ---------------------------------------------------------------------------------

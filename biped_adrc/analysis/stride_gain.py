@@ -157,6 +157,9 @@ def stride_response(
         raise GaitError(f"delta^2 is {delta**2:.4g}: the walk does not settle, expected below 1")
     # z differs by the share w of sigma-^2, beta by w
     w = 2.0 * _DIFFERENCE
-    b, d = 2.0 * (more.work - less.work) / w, (speed(more) - speed(less)) / w
-    c = (speed(zero, 1.0 + _DIFFERENCE) - speed(zero, 1.0 - _DIFFERENCE)) / (w * sigma**2)
-    return StrideResponse(delta**2, b, c, d)
+    return StrideResponse(
+        a=delta**2,
+        b=2.0 * (more.work - less.work) / w,
+        c=(speed(zero, 1.0 + _DIFFERENCE) - speed(zero, 1.0 - _DIFFERENCE)) / (w * sigma**2),
+        d=(speed(more) - speed(less)) / w,
+    )

@@ -219,9 +219,15 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     # dh/ds at a fixed time; over `rate` it is -dt/ds of the impact's time t
     earlier = dh @ through
     through -= np.outer(f_end, earlier) / rate
-    residual = float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end)))
-    found = s, P.project(x_end), np.delete(through, k, axis=0), end.t, residual
-    return StepDerivative(*found, end_flow=np.delete(f_end, k), earlier=earlier / rate)
+    return StepDerivative(
+        s=s,
+        image=P.project(x_end),
+        jacobian=np.delete(through, k, axis=0),
+        duration=end.t,
+        flow_residual=float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end))),
+        end_flow=np.delete(f_end, k),
+        earlier=earlier / rate,
+    )
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:

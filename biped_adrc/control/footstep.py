@@ -207,9 +207,16 @@ class Footstep(OuterLoop):
         """
         length, rates = gait.step_length(biped), tuple(np.ravel(speeds).tolist())
         usual = rates[-1] if rates else length / gait.period
-        kept, far = usual if speed is None else speed, length if step is None else step
-        own = load_family(family, biped), kept, far, tuple(map(float, stones)), pole, bandwidth
-        return cls(inner, *own, speeds=rates)
+        return cls(
+            inner,
+            load_family(family, biped),
+            usual if speed is None else speed,
+            length if step is None else step,
+            tuple(map(float, stones)),
+            pole,
+            bandwidth,
+            speeds=rates,
+        )
 
     def sampled(self, period: float) -> Self:
         return with_fields(self, inner=self.inner.sampled(period), period=period)

@@ -50,9 +50,14 @@ class SuperTwistingController(WithPeriod):
     period: float | None = None
 
     @derived
-    def k(self) -> tuple[float, float]:
-        """Gains k_1 [rad^(1/2) / s^(3/2)] and k_2 [rad/s^3]."""
-        return 1.5 * math.sqrt(self.lipschitz), 1.1 * self.lipschitz
+    def k_1(self) -> float:
+        """Gain k_1 [rad^(1/2) / s^(3/2)]."""
+        return 1.5 * math.sqrt(self.lipschitz)
+
+    @derived
+    def k_2(self) -> float:
+        """Gain k_2 [rad/s^3]."""
+        return 1.1 * self.lipschitz
 
     def sliding(self, r: ReferencePoint, m: Measurement) -> tuple[Array, Array]:
         """The sliding variable sigma = e' + lambda e and the rate error e' = q_b' - q_d', each (p,) [rad/s], at
@@ -66,7 +71,7 @@ class SuperTwistingController(WithPeriod):
         r = self.reference(m.t, m.q, m.v)
         sigma, de = self.sliding(r, m)
         # q_d'' contains q'', and so the torque: `solved_acceleration` solves for q_b'' = q_d'' + f
-        f = s - self.slope * de - self.k[0] * sigma / np.sqrt(np.abs(sigma) + self.layer)
+        f = s - self.slope * de - self.k_1 * sigma / np.sqrt(np.abs(sigma) + self.layer)
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
 
     def initial_state(self, m: Measurement) -> Array:
@@ -78,7 +83,7 @@ class SuperTwistingController(WithPeriod):
         winds up while it is reached.
         """
         sigma, _ = self.sliding(self.reference(m.t, m.q, m.v), m)
-        return -self.k[1] * sigma / (np.abs(sigma) + self.layer)
+        return -self.k_2 * sigma / (np.abs(sigma) + self.layer)
 
     def correct(self, s: Array, m: Measurement) -> Array:
         """z (p,) [rad/s^2] over the period before this tick, by its sigma: so z does not lose a sample."""
