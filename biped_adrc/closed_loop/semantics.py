@@ -51,14 +51,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.protocols import Loop, Mode
+from biped_adrc.closed_loop.protocols import FootForces, Loop, Mode
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.tree import chosen, flatten
 from biped_adrc.core.types import Array, frozen, relabelled
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import HeldParts, Tail, motor_torque
-from biped_adrc.hardware.touchdown import Belief, Look, Touchdown
+from biped_adrc.hardware.touchdown import Belief, Look
 from biped_adrc.model.reduction import Reduction, unknown_force
 
 
@@ -190,7 +190,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
 def on_stance_foot(
     loop: Loop, resultant: Array, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-) -> tuple[float, float]:
+) -> FootForces:
     """Vertical forces of the ground on stance and swing foot [N], the latter 0, of a plant whose stance foot is
     pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
 
@@ -265,8 +265,12 @@ def after_contact(
     if k is not None:
         tail = tail._replace(line=tail.line.relabelled(loop.swap))
         if k.touchdown is not None:
-            belief = unnoticed(loop, k.touchdown, tail.belief, t)
-            return flatten(State(q_plus, v_plus, s, tail._replace(belief=belief)))
+            # the plant's legs exchange their names and the controller keeps its own: `other` changes, and the
+            # detector's memory d may
+            b, other = tail.belief, 1.0 - tail.belief.other
+            d = k.touchdown.touchdown(b.d, other, t)
+            b = b._replace(other=other, d=loop.checked(k.touchdown, "touchdown", b.d, d))
+            return flatten(State(q_plus, v_plus, s, tail._replace(belief=b)))
         if k.sensors is not None:
             # the last measured rates, mapped by the nominal model's impact
             expected = loop.nominal.impact(*sensor_readings(loop, k, tail.sensors, q, v)).v
@@ -371,11 +375,3 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
         return None
     xi = estimate.disturbance
     return xi if b is None else chosen(b.other, relabelled(xi, loop.swap), xi)
-
-
-def unnoticed(loop: Loop, touchdown: Touchdown, b: Belief, t: float) -> Belief:
-    """The belief b just after a true touchdown at t [s], at which the plant's legs exchange their names and the
-    controller keeps its own: `other` changes, and the detector's memory d may."""
-    other = 1.0 - b.other
-    d = loop.checked(touchdown, "touchdown", b.d, touchdown.touchdown(b.d, other, t))
-    return b._replace(other=other, d=d)

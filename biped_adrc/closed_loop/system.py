@@ -27,7 +27,7 @@ from typing import Any, Generic, NamedTuple, Self, TypeVar, cast
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
+from biped_adrc.closed_loop.protocols import ControlLaw, FootForces, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant, State
 from biped_adrc.control.base import Controller, Measurement, check_methods, has_own_class, nested
 from biped_adrc.control.tracking import Gains
@@ -319,9 +319,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
             return tuple([self.checked(x, method, *states) for x, *states in each])
         return frozen(returned_tree(after, Layout.of(before), part, method, finite=False))
 
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-    ) -> tuple[float, float]:
+    def foot_forces(self, t: float, q: Array, v: Array, tail: Tail, mode: Mode) -> FootForces:
         """Vertical forces of the ground on stance and swing foot [N], the latter 0: a plant whose stance foot
         is pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`."""
         return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
@@ -443,10 +441,8 @@ def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
 
 
 @once
-def _check_reference(
-    reference: Reference, owner: str, p: int, t: float, q: bytes, v: bytes
-) -> None:
-    """Evaluate the reference of a controller of the class `owner` at t [s] and the bytes of q and v, and raise
+def _check_reference(reference: Reference, law: str, p: int, t: float, q: bytes, v: bytes) -> None:
+    """Evaluate the reference of a controller of the class `law` at t [s] and the bytes of q and v, and raise
     InputError where it does not fit p motors and the coordinates. What fits is remembered."""
     at = np.frombuffer(q), np.frombuffer(v)
     try:
@@ -456,7 +452,7 @@ def _check_reference(
         raise
     except (ValueError, IndexError, TypeError) as error:
         raise InputError(
-            f"the {type(reference).__name__} of {owner} cannot be evaluated at the "
+            f"the {type(reference).__name__} of {law} cannot be evaluated at the "
             f"{len(at[0])} coordinates of this robot: {error}; expected one of this robot, such as the "
             "constraint of a gait that was designed for it"
         ) from error

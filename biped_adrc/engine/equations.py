@@ -36,7 +36,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.protocols import ControlLaw, Mode
+from biped_adrc.closed_loop.protocols import ControlLaw, FootForces, Mode
 from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import tracked_point
@@ -118,9 +118,7 @@ class SymbolicLoop(NamedTuple):
         """The state `after` that a method of a part returned, of the layout of the state `before`."""
         return _alike(before, after, f"{type(part).__name__}.{method}")
 
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-    ) -> tuple[float, float]:
+    def foot_forces(self, t: float, q: Array, v: Array, tail: Tail, mode: Mode) -> FootForces:
         """Vertical forces of the ground on stance and swing foot [N]: inputs where the plant moves by
         itself."""
         if self.numbers.moves:
@@ -342,6 +340,18 @@ def matvec_function(k: int, p: int) -> SymbolicFunction:
     K."""
     M, E = Vector("M", k * k), Vector("E", k * p)
     return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
+
+
+def method_function(part: Any, method: str, inputs: Layout) -> SymbolicFunction:
+    """The function of arguments of this layout that a method of a part is; its result is an array or a tuple of
+    arrays. Raises NotCompiled for one that cannot be traced.
+    """
+    # symbols: the part with symbols in place of its numbers
+    (K, symbols), inp = symbols_of(part), Vector("inp", inputs.size)
+    # `sparse` of a robot: terms that this robot does not have are a plain 0 and vanish from the code
+    symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
+    out = apply(Tracer(), methodcaller(method, *inputs.tree(inp.take(inputs.size))), symbols)
+    return SymbolicFunction(K, inp.symbol, column(*(out if isinstance(out, tuple) else (out,))))
 
 
 def push_function(term: Disturbance, n: int) -> SymbolicFunction:

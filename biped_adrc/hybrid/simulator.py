@@ -16,14 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.core import errors
 from biped_adrc.core.checks import handing_out, sentence_of
-from biped_adrc.core.errors import (
-    InputError,
-    NotFiniteError,
-    RanAwayError,
-    SingularError,
-    check_count,
-)
+from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.constants import CROWD, EVENT_LIMIT, STEP_FAILED, TOGETHER
 from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
@@ -190,9 +185,9 @@ def finite_part(flown: FlownArc) -> FlownArc:
 
 
 FAILURES: Mapping[Status, type[Exception]] = {
-    Status.NOT_FINITE: NotFiniteError,
-    Status.RAN_AWAY: RanAwayError,
-    Status.SINGULAR: SingularError,
+    Status.NOT_FINITE: errors.NotFiniteError,
+    Status.RAN_AWAY: errors.RanAwayError,
+    Status.SINGULAR: errors.SingularError,
     Status.STEP_FAILED: StepFailed,
 }
 """The errors that end a run with a status in place of being raised."""
