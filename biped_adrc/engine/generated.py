@@ -6,7 +6,8 @@ trace is to run its Python once on symbols, which gives the expression that is c
 """
 
 from collections.abc import Callable, Hashable, Mapping
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from biped_adrc.engine.machine import Code, fetch, store
 from biped_adrc.engine.not_compiled import NotCompiled
@@ -15,15 +16,20 @@ from biped_adrc.engine.structure import lasting
 if TYPE_CHECKING:
     from biped_adrc.engine.equations import SymbolicFunction
 
-_Functions = Mapping[str, Callable[[], "SymbolicFunction"]]
+_Traced = Mapping[str, Callable[[], "SymbolicFunction"]]
 """Name of a function -> what is called to trace it where its code is neither in memory nor on disk."""
 _IN_MEMORY: dict[Hashable, Code | str] = {}
 """Structure and names of functions -> their code; a text where they cannot be compiled, the reason."""
 
 
-def generated(
-    key: Hashable, functions: _Functions, optimised: bool = False, lanes: int = 1
-) -> Code:
+def on_symbols(module: str, name: str, *arguments: object) -> Any:
+    """What the function `name` of a module of the engine returns; the import is here, as it brings CasADi in,
+    which is needed only where something is traced.
+    """
+    return getattr(import_module(f"biped_adrc.engine.{module}"), name)(*arguments)
+
+
+def generated(key: Hashable, functions: _Traced, optimised: bool = False, lanes: int = 1) -> Code:
     """The machine code of these functions; they are traced once per structure.
 
     - key: the structure of what they are made from; equal keys have to mean equal code.
@@ -35,10 +41,7 @@ def generated(
     """
 
     def text() -> str:
-        # imported here, since it imports CasADi, which is needed only where something is traced
-        from biped_adrc.engine.ir import module_text
-
-        return module_text({name: f() for name, f in functions.items()}, lanes)
+        return on_symbols("ir", "module_text", {x: f() for x, f in functions.items()}, lanes)
 
     return generated_text((key, *functions, lanes), tuple(functions), text, optimised)
 

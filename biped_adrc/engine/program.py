@@ -32,7 +32,7 @@ from biped_adrc.core.once import once
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
-from biped_adrc.engine.generated import generated
+from biped_adrc.engine.generated import generated, on_symbols
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
 from biped_adrc.engine.machine import Code
@@ -66,10 +66,8 @@ class Program:
 
     @cached_property
     def equations(self) -> Equations:
-        """The functions on symbols; the import here, where something is traced, brings CasADi in."""
-        from biped_adrc.engine.equations import Equations
-
-        return Equations(self.layout, self.numbers)
+        """The functions on symbols."""
+        return on_symbols("equations", "Equations", self.layout, self.numbers)
 
     @property
     def nx(self) -> int:
@@ -134,7 +132,7 @@ class Program:
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
-            traced = partial(_on_symbols, "matvec_function", *sizes)
+            traced = partial(on_symbols, "equations", "matvec_function", *sizes)
             code = generated(sizes, {name: traced}, optimised=True)
         return code.addresses.get(name, 0)
 
@@ -149,15 +147,8 @@ def push_code(term: Disturbance, n: int) -> Code:
     # compiled loops get the table `switches`, and could not call a `switching_times` of the user's
     if type(term).switching_times is not Disturbance.switching_times:
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
-    traced = partial(_on_symbols, "push_function", term, n)
+    traced = partial(on_symbols, "equations", "push_function", term, n)
     return generated(("push", n, structure(term)), {"push": traced})
-
-
-def _on_symbols(name: str, *arguments: object) -> SymbolicFunction:
-    """What the function `name` of `engine.equations` returns; the import is here, as it brings CasADi in."""
-    from biped_adrc.engine import equations
-
-    return getattr(equations, name)(*arguments)
 
 
 def at_rest(layout: Layout) -> Layout:
