@@ -70,9 +70,7 @@ def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPl
     name, steps = type(plant).__name__, walker.ground_steps
     # a walker without a slope (None) walks on the plant's, and a plant that has none takes any
     if walker.slope not in (None, slope := getattr(plant, "slope", walker.slope)):
-        raise InputError(
-            f"{name} has a slope of {slope} rad, and the walker {walker.slope}; give one"
-        )
+        raise InputError(f"{name} has a slope of {slope} rad, the walker {walker.slope}; give one")
     lag = 0.0 if walker.motors is None else walker.motors.lag
     own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
     for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):

@@ -18,7 +18,7 @@ from functools import wraps
 from inspect import unwrap
 from numbers import Integral, Real
 from pathlib import Path
-from types import NoneType, UnionType
+from types import CodeType, NoneType, UnionType
 from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 from weakref import WeakKeyDictionary
 
@@ -305,13 +305,17 @@ def handing_out() -> Iterator[None]:
         raise RaisedError(told) from error
 
 
+def calls_of(error: Exception) -> list[tuple[CodeType, traceback.FrameSummary]]:
+    """Code and line of each call that an exception has passed, the innermost last."""
+    codes = (frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__))
+    return list(zip(codes, traceback.extract_tb(error.__traceback__), strict=True))
+
+
 def sentence_of(error: Exception) -> str:
     """Sentence on an exception in a user's code: "PD.output (own.py:12, `x = 1 / 0`) raised ..."; empty for
     one in which no line of the user's was running.
     """
-    frames = traceback.walk_tb(error.__traceback__)
-    lines = zip(frames, traceback.extract_tb(error.__traceback__), strict=True)
-    own = [(frame.f_code, line) for (frame, _), line in lines if is_users(line.filename)]
+    own = [call for call in calls_of(error) if is_users(call[1].filename)]
     if not own:
         return ""
     code, line = own[-1]  # the innermost call

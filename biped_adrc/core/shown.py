@@ -51,10 +51,9 @@ class ByValue:
         if not is_dataclass(self):
             return object.__hash__(self)
         # a dict of results, which `core.once` puts into an object in which nothing can change; else None
-        memory = vars(self).get("_once")
-        return (
-            memory.found("hash", lambda: hash(value_of(self))) if memory else hash(value_of(self))
-        )
+        if memory := vars(self).get("_once"):
+            return memory.found("hash", lambda: hash(value_of(self)))
+        return hash(value_of(self))
 
 
 def value_of(x: Any) -> Hashable:

@@ -98,6 +98,12 @@ class Program:
         return K
 
     @cached_property
+    def first(self) -> int:
+        """Index in K of the controller's first number; K has the numbers in the order of the fields, those of
+        plant and model before."""
+        return len(floats(self.numbers[: self.numbers._fields.index("controller")]))
+
+    @cached_property
     def key(self) -> Hashable:
         """The structure that decides all code of the program except that of readings, which alone use the
         curve."""
@@ -234,13 +240,6 @@ class CompiledWalker:
         """The terms of its disturbance."""
         return (self.walker.disturbance or NO_PUSH).terms
 
-    @cached_property
-    def _first(self) -> int:
-        """Index in K of the controller's first number; K has the numbers in the order of the fields, those of
-        plant and model before."""
-        numbers = self.program.numbers
-        return len(floats(numbers[: numbers._fields.index("controller")]))
-
     def like(self, walker: Walker) -> CompiledWalker | None:
         """The compiled form of a walker that differs from this one in its disturbance and in numbers of its
         controller alone; None where `of` has to look: its controller has another structure or NaN, or other
@@ -255,7 +254,7 @@ class CompiledWalker:
         entangled = isinstance(law, OuterLoop) or old.split is not None
         if entangled or not alike(law, old.controller) or np.any(np.isnan(own)):
             return None
-        K[self._first : self._first + len(own)] = own
+        K[program.first : program.first + len(own)] = own
         other = replace(program, numbers=numbers)
         vars(other)["key"] = program.key  # computed already, and equal for laws that are alike
         still = self.still._replace(program=other, tables={**self.still.tables, "K": K})
@@ -299,9 +298,8 @@ def _still(
     in_python: whether sample instants and impacts run in Python. loaded: whether functions are in memory.
     """
     if not isinstance(method, RK4 | Exponential):
-        raise NotCompiled(
-            f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
-        )
+        name = type(method).__name__
+        raise NotCompiled(f"method {name} has no compiled form, as RK4 and Exponential have")
     etd = isinstance(method, Exponential)
     split = walker.split_form() if etd else None
     if etd and split is None:

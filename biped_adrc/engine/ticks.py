@@ -77,7 +77,7 @@ class PythonTicks:
         """
         before = sys.unraisablehook
 
-        def keep(lost: sys.UnraisableHookArgs) -> None:
+        def keep(lost: "sys.UnraisableHookArgs") -> None:
             if isinstance(lost.exc_value, KeyboardInterrupt):
                 self.error = lost.exc_value
             else:

@@ -87,6 +87,11 @@ class FlownArc(NamedTuple):
     """None where the run ends with this arc."""
 
 
+Flight = Callable[[float, Array, AnyMode, Event | None], FlownArc]
+"""fly(t, x, mode, event that ended the arc before) integrates one arc. It also finds (x+, mode+) after its
+event, from which the next arc starts."""
+
+
 def simulate(
     system: HybridSystem, x0: Array, mode: AnyMode, method: OneStepMethod, **options: Any
 ) -> Trajectory:
@@ -120,18 +125,10 @@ def run(
     return run_arcs(partial(flow_arc, system, method, options), x0, mode, label, options)
 
 
-def run_arcs(
-    fly: Callable[[float, Array, AnyMode, Event | None], FlownArc],
-    x0: Array,
-    mode: AnyMode,
-    label: str,
-    options: RunOptions,
-) -> Trajectory:
+def run_arcs(fly: Flight, x0: Array, mode: AnyMode, label: str, options: RunOptions) -> Trajectory:
     """Run from x0 (nx,) in `mode`, arc after arc, until an end of `options` or a failure.
 
-    fly(t, x, mode, event that ended the arc before) integrates one arc. It also finds (x+, mode+) after its
-    event, from which the next arc starts; events are counted here. label: name of the method, for the
-    trajectory's settings.
+    fly: integrates each arc; events are counted here. label: name of the method, for the trajectory's settings.
     """
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)

@@ -152,9 +152,7 @@ class RobotAndGait:
     def walked(self) -> Gait:
         """The gait of a robot with motors. Raises InputError for a robot without motors, which has none."""
         if self.gait is None:
-            raise InputError(
-                f"robot '{self.biped.description.name}' has 0 motors and walks no gait"
-            )
+            raise InputError(f"robot '{self.biped.description.name}' has 0 motors, so no gait")
         return self.gait
 
 
