@@ -131,15 +131,6 @@ class Loop(Protocol):
     def held(self) -> HeldParts | None:
         """Parameters of what is held between sample instants; None in continuous time."""
 
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
-        gets entry swap[i] of (y, -y) (`types.relabelled`)."""
-
-    @property
-    def gain(self) -> Array:
-        """Relative errors of the impact map: v+ = (1 + gain) v+, (n,) [1], or empty for none."""
-
     def layout_of(self, x: Array) -> Layout:
         """The layout of a state x (nx,): which numbers of it are which part of a `semantics.State`."""
 

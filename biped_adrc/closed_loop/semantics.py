@@ -237,13 +237,13 @@ def xi_unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) ->
     return zeta if loop.exact else unknown_force(terms, a, u)
 
 
-def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
+def strike(loop: Loop, t: float, x: Array, after: Mode, gain: Array) -> Array:
     """x+ (nx,) after impact, relabelling and the controller's jump, for x- = x (nx,) at t [s]. after: the
-    single support that begins. loop.gain (n,) [1], empty for none: error of the impact map,
-    v+ becomes (1 + gain) v+."""
+    single support that begins. gain (n,) [1], empty for none: relative error of the impact map, v+ becomes
+    (1 + gain) v+."""
     q, v, _, _ = parts(loop, x)
     impact = loop.plant.impact(q, v)
-    v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
+    v_plus = impact.v * (1.0 + gain) if len(gain) > 0 else impact.v
     return after_contact(loop, t, x, impact.q, v_plus, after)
 
 
@@ -263,7 +263,7 @@ def after_contact(
     # the (q, q') that the controller gets: the true ones, unless it has sensors
     reading = q_plus, v_plus
     if k is not None:
-        tail = tail._replace(line=tail.line.relabelled(loop.swap))
+        tail = tail._replace(line=tail.line.relabelled(loop.plant.swap))
         if k.touchdown is not None:
             # the plant's legs exchange their names and the controller keeps its own: `other` changes, and the
             # detector's memory d may
@@ -277,7 +277,7 @@ def after_contact(
             w = k.sensors.impact(tail.sensors, q_plus, v_plus, expected)
             tail = tail._replace(sensors=loop.checked(k.sensors, "impact", tail.sensors, w))
         reading = sensor_readings(loop, k, tail.sensors, q_plus, v_plus)
-    s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.swap)
+    s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.plant.swap)
     return flatten(State(q_plus, v_plus, s, tail))
 
 
@@ -357,7 +357,7 @@ def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
     plant's (b.other is 1): from the plant's to the controller's, or back. b is None for a controller that knows
     touchdowns at once."""
     # both are computed and one is chosen: on symbols b.other has no value that an `if` could ask
-    return line if b is None else chosen(b.other, line.relabelled(loop.swap), line)
+    return line if b is None else chosen(b.other, line.relabelled(loop.plant.swap), line)
 
 
 def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Array | None:
@@ -374,4 +374,4 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
     if estimate is None:
         return None
     xi = estimate.disturbance
-    return xi if b is None else chosen(b.other, relabelled(xi, loop.swap), xi)
+    return xi if b is None else chosen(b.other, relabelled(xi, loop.plant.swap), xi)

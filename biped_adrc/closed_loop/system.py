@@ -33,10 +33,10 @@ from biped_adrc.control.base import Controller, Measurement, check_methods, has_
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
-from biped_adrc.core.once import once, shared
+from biped_adrc.core.part import once, shared
 from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends
 from biped_adrc.core.tree import Layout, flatten, returned_tree
-from biped_adrc.core.types import Array, Indices, frozen, read_only
+from biped_adrc.core.types import Array, frozen, read_only
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware.motors import IDEAL, Motors
@@ -221,17 +221,6 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         peak = robot.description.peak_torque if robot.p else math.inf
         return _Bounds(TURN, fastest, self.runaway_torque * peak)
 
-    @property
-    def gain(self) -> Array:
-        """Relative errors of the impact map in v+: none, an empty array (0,) [1]; a `Walker` may have some."""
-        return np.zeros(0)
-
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
-        gets entry swap[i] of (y, -y)."""
-        return self.plant.swap  # type: ignore[attr-defined]
-
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s]; zeros without one. Raises
         InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN."""
@@ -301,7 +290,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
         """s after the controller's jump to m where `fires` is 1 (it notices a touchdown), else s as it is."""
-        return self.calls.jump(s, m, self.swap) if fires > 0.5 else s
+        return self.calls.jump(s, m, self.plant.swap) if fires > 0.5 else s  # type: ignore[attr-defined]
 
     @cached_property
     def _own_hardware(self) -> bool:

@@ -216,7 +216,7 @@ class Walker(ClosedLoop[Biped]):
         """x+ (nx,) after impact, relabelling and the controller's jump at t [s], wherever the swing foot is,
         and the mode that begins."""
         after = Mode(mode.step + 1, t)
-        return semantics.strike(self, t, x, after), after
+        return semantics.strike(self, t, x, after, self.gain), after
 
     def drop(self, step: int) -> float:
         """How much lower [m] than the plane through the stance foot the ground is where single support `step`

@@ -28,7 +28,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import Measurement, has_own_class
 from biped_adrc.core.checks import Checked, PositiveInt, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
-from biped_adrc.core.once import constant
+from biped_adrc.core.part import constant
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array

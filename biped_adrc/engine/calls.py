@@ -20,8 +20,7 @@ from typing import Any, cast
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.core.once import once
-from biped_adrc.core.part import content, with_content
+from biped_adrc.core.part import content, once, with_content
 from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance

@@ -41,7 +41,7 @@ from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import tracked_point
 from biped_adrc.core.tree import Layout, chosen
-from biped_adrc.core.types import Array, Indices, T
+from biped_adrc.core.types import Array, T
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.not_compiled import Located, NotCompiled
@@ -81,17 +81,6 @@ class SymbolicLoop(NamedTuple):
         """Whether the controller's model is the plant; joint friction is in no model of a controller."""
         return self.numbers.model is None and not self.plant.friction
 
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,): whole numbers, and so a part of the
-        structure."""
-        return self.plant.swap
-
-    @property
-    def gain(self) -> Array:
-        """Relative errors of v+ (n,) [1], or empty."""
-        return self.numbers.impact_gain
-
     def layout_of(self, x: Array) -> Layout:
         """The layout of a state x, the same for all of them."""
         return self.layout
@@ -112,7 +101,7 @@ class SymbolicLoop(NamedTuple):
 
         fires: 1 at a tick at which the controller notices a touchdown, else 0.
         """
-        return self.trace(chosen)(fires, self.calls.jump(s, m, self.swap), s)
+        return self.trace(chosen)(fires, self.calls.jump(s, m, self.plant.swap), s)
 
     def checked(self, part: Any, method: str, before: Any, after: Any) -> Any:
         """The state `after` that a method of a part returned, of the layout of the state `before`."""
@@ -283,7 +272,7 @@ class Equations:
         inp, loop = Vector("inp", 2 + self.nx), self.loop()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         # `strike`: impact map, relabelling of the legs and the controller's jump
-        x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
+        x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t), loop.numbers.impact_gain)
         # lost: the least pivot, or -1 where a torque is beyond the bound
         return self.function(inp, x, loop.lost)
 

@@ -65,9 +65,13 @@ def load_or_compile(text: str, names: Sequence[str], optimised: bool = False) ->
 def hash_of(*made_from: str) -> str:
     """Hash of these texts, of this processor with its instructions, and of the version of LLVM, by which a file
     is named: 32 hexadecimal digits."""
-    host = binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
-    parts = (*made_from, *host, str(binding.llvm_version_info))
+    parts = (*made_from, *_host(), str(binding.llvm_version_info))
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
+
+
+def _host() -> tuple[str, str]:
+    """Name and instructions of this processor, in LLVM's words."""
+    return binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
 
 
 def _target() -> binding.TargetMachine:
@@ -76,12 +80,7 @@ def _target() -> binding.TargetMachine:
     """
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    return binding.Target.from_default_triple().create_target_machine(
-        cpu=binding.get_host_cpu_name(),
-        features=binding.get_host_cpu_features().flatten(),
-        opt=3,
-        jit=True,
-    )
+    return binding.Target.from_default_triple().create_target_machine(*_host(), opt=3, jit=True)
 
 
 def parsed(text: str, machine: binding.TargetMachine) -> binding.ModuleRef:

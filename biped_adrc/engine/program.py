@@ -28,7 +28,7 @@ import numpy as np
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop
-from biped_adrc.core.once import once
+from biped_adrc.core.part import once
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance

@@ -30,7 +30,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.around import AddedTorque
 from biped_adrc.core.checks import handing_out
 from biped_adrc.core.errors import RaisedError
-from biped_adrc.core.once import once
+from biped_adrc.core.part import once
 from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.disturbances.force import AddedForce

@@ -25,8 +25,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.core.checks import LIBRARIES, PACKAGE
-from biped_adrc.core.once import once
-from biped_adrc.core.part import Setup, content, is_part
+from biped_adrc.core.part import Setup, content, is_part, once
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.versions import numerical_versions
 from biped_adrc.engine.machine import hash_of

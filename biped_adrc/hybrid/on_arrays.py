@@ -14,24 +14,21 @@ compiled.
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from biped_adrc.core.errors import NotFiniteError
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, T
 from biped_adrc.hybrid import constants, integrators
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.system import AnyMode, Clock, FoundEvent, HybridSystem
 from biped_adrc.hybrid.trajectory import Event, Recorder
 
-_Function = TypeVar("_Function", bound=Callable[..., object])
 
-
-def inner(function: _Function) -> _Function:
+def inner(function: T) -> T:
     """Return the function itself; the compiled engine's decorator of this name inlines it into its callers."""
     return function
 
