@@ -235,9 +235,8 @@ class SteppingLoop(ClosedLoop[Any]):
         # returned: checks the shape; numbers that are not finite have an error of their own below
         row = returned(row, self.row(x).shape, self.plant, "advance", finite=False)
         if not np.all(np.isfinite([*row, *impulse])):
-            raise NotFiniteError(
-                f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
-            )
+            what = f"{name} at t = {t:.6g} s: its impulse or the state after it"
+            raise NotFiniteError(f"{what} is not finite")
         after = Mode(mode.step + 1, t)
         x_plus = after_contact(self, t, x, row[:n], row[n : 2 * n], after)
         # after_contact sets q and v of the plant; here its own numbers after the contact are set too

@@ -46,10 +46,6 @@ from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.biped import Biped
 
-TURN = 2.0 * math.pi
-"""Largest |angle| of a joint or of the pitch [rad]: a whole turn, more than cables and legs allow."""
-
-
 RUNAWAY_RATE = 50.0
 """Rate of a joint or of the pitch of which runaway_speed is a multiple [rad/s]."""
 
@@ -73,9 +69,8 @@ class _Bounds(NamedTuple):
         i, j = int(np.argmax(np.abs(q))), int(np.argmax(np.abs(v) / self.fastest))
         if abs(q[i]) > self.farthest:
             raise RanAwayError(f"t = {t:.6g} s: q{i + 1} is {q[i]:.3g} rad, beyond a whole turn")
-        raise RanAwayError(
-            f"t = {t:.6g} s: |q{j + 1}'| is {abs(v[j]):.3g} rad/s, above {self.fastest[j]:.3g} rad/s"
-        )
+        beyond = f"|q{j + 1}'| is {abs(v[j]):.3g} rad/s, above {self.fastest[j]:.3g} rad/s"
+        raise RanAwayError(f"t = {t:.6g} s: {beyond}")
 
 
 _P = TypeVar("_P", bound=Plant)
@@ -120,10 +115,9 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         check_fields(self)
         # a longest single support and a height of a fall are a walker's: these two values pass the check
         check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
-        if self.nominal.n != self.plant.n:
-            raise InputError(
-                f"the model has {self.nominal.n} coordinates, the plant {self.plant.n}; they must agree"
-            )
+        n, known = self.plant.n, self.nominal.n
+        if known != n:
+            raise InputError(f"the model has {known} coordinates, the plant {n}; they must agree")
         if not self.sampled and (self.sensors or self.motors):
             raise InputError(
                 f"sensors and motors work in sampled time, found {type(self.timing).__name__}; give "
@@ -219,7 +213,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
             return _Bounds(math.inf, read_only(np.full(self.plant.n, math.inf)), math.inf)
         fastest = read_only(np.full(robot.n, self.runaway_speed * RUNAWAY_RATE))
         peak = robot.description.peak_torque if robot.p else math.inf
-        return _Bounds(TURN, fastest, self.runaway_torque * peak)
+        # an angle may come to a whole turn, which is more than cables and legs allow
+        return _Bounds(2.0 * math.pi, fastest, self.runaway_torque * peak)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s]; zeros without one. Raises

@@ -79,7 +79,7 @@ NonNegativeFloats = Annotated[_ROW, each("finite numbers, none below 0", _NOT_BE
 TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfinite, 2)]
 
 
-_NUMBERS: dict[Any, str] = {
+IN_WORDS: dict[Any, str] = {
     float: "a number",
     Integral: "a whole number",
     bool: "true or false",
@@ -101,7 +101,7 @@ def check_part(value: object, what: str, *kinds: type) -> None:
         return
     named = [kind for kind in kinds if kind is not NoneType]
     # _a: name of a class with its article, such as "a Gait"; _shown: short text of a value
-    words = " or ".join(_NUMBERS.get(kind) or _a(kind) for kind in named)
+    words = " or ".join(IN_WORDS.get(kind) or _a(kind) for kind in named)
     examples = [vars(kind)["SUCH_AS"] for kind in named if "SUCH_AS" in vars(kind)]
     such_as = f", such as {examples[0]}" if examples else ""
     raise InputError(f"{what} is {_shown(value)}, expected {words}{such_as}")
@@ -391,11 +391,11 @@ def _allowed(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether a type can be checked: a class of this package but no protocol, a key of `_NUMBERS`
+    """Whether a type can be checked: a class of this package but no protocol, a key of `IN_WORDS`
     (float, Integral, str, Mapping), or None.
     """
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
-    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*_NUMBERS, NoneType)
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*IN_WORDS, NoneType)
 
 
 def _shown(value: Any) -> str:

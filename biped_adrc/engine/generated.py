@@ -9,7 +9,7 @@ from collections.abc import Callable, Hashable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from biped_adrc.engine.machine import Code, fetch, store
+from biped_adrc.engine.machine import Code, stored
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.structure import lasting
 
@@ -54,22 +54,13 @@ def generated_text(
     code = _IN_MEMORY.get(key)
     if code is None:
         try:
-            code = Code(_text(key, write), names, optimised)
+            # from the disk, where another process has made a text of the same structure
+            name = lasting(key)  # empty for a structure with classes of the user's
+            text = stored(name, lambda: write().encode()).decode() if name else write()
+            code = Code(text, names, optimised)
         except NotCompiled as error:
             code = str(error)
         _IN_MEMORY[key] = code
     if isinstance(code, str):
         raise NotCompiled(code)
     return code
-
-
-def _text(key: Hashable, write: Callable[[], str]) -> str:
-    """The text that `write` makes; from the disk where another process has made one of the same structure."""
-    name_on_disk = lasting(key)  # empty for a structure with classes of the user's
-    stored = fetch(name_on_disk) if name_on_disk else None
-    if stored is not None:
-        return stored.decode()
-    result = write()
-    if name_on_disk:
-        store(name_on_disk, result.encode())
-    return result

@@ -1,7 +1,7 @@
 """Machine code of modules in LLVM's language, kept on disk with checksums.
 
 Last stage of the compiler that makes machine code of methods, such as a controller's. Object code is stored
-under the hash of the text and of what compiles it; other stages store texts in the same way (`fetch`, `store`).
+under the hash of the text and of what compiles it; other stages store texts in the same way (`stored`).
 A file is written under another name and then renamed, so several processes may make the same one; a damaged
 file is made again, and where nothing can be written code is made in memory each time.
 """
@@ -9,7 +9,7 @@ file is made again, and where nothing can be written code is made in memory each
 import hashlib
 import os
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -52,14 +52,20 @@ def load_or_compile(text: str, names: Sequence[str], optimised: bool = False) ->
     optimised: whether LLVM's passes run. One thread at a time does it, so no two compile the same module;
     another process may do so, and then writes the same file.
     """
-    key = hash_of(text, str(optimised))
+
+    def compiled() -> bytes:
+        host = _target()
+        return object_code(parsed(text, host), host, optimised)
+
     with LOCK:
-        code = fetch(key)
-        if code is None:
-            host = _target()
-            code = object_code(parsed(text, host), host, optimised)
-            store(key, code)
-        return loaded(code, names)
+        code = stored(hash_of(text, str(optimised)), compiled)
+        # the engine wants a module of its own, which is empty; the functions come with the object file
+        engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
+        engine.add_object_file(binding.ObjectFileRef.from_data(code))
+        engine.finalize_object()
+        # never freed: runs hold addresses of their functions
+        _ENGINES.append(engine)
+        return {name: int(engine.get_function_address(name)) for name in names}
 
 
 def hash_of(*made_from: str) -> str:
@@ -122,17 +128,6 @@ _ENGINES: list[object] = []
 """LLVM's engines, never freed: runs hold addresses of their functions."""
 
 
-def loaded(code: bytes, names: Sequence[str]) -> dict[str, int]:
-    """Load object code into memory and find the addresses of the functions `names`."""
-    # the engine wants a module of its own, which is empty; the functions come with the object file
-    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
-    engine.add_object_file(binding.ObjectFileRef.from_data(code))
-    engine.finalize_object()
-    # never freed: runs hold addresses of their functions
-    _ENGINES.append(engine)
-    return {name: int(engine.get_function_address(name)) for name in names}
-
-
 def _path(key: str) -> Path:
     """The file of what is stored under `key`.
 
@@ -159,6 +154,14 @@ def fetch(key: str) -> bytes | None:
     # CHECK: bytes of the checksum at the beginning of the file
     check, code = data[:CHECK], data[CHECK:]
     return code if hashlib.sha256(key.encode() + code).digest() == check else None
+
+
+def stored(key: str, make: Callable[[], bytes]) -> bytes:
+    """The object code or text stored on disk under `key`; else what make() gives, which is then stored."""
+    code = fetch(key)
+    if code is None:
+        store(key, code := make())
+    return code
 
 
 def store(key: str, code: bytes) -> None:

@@ -24,9 +24,8 @@ from typing import Any, Self, cast
 import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import step_reading
-from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.around import AddedTorque
 from biped_adrc.core.checks import handing_out
 from biped_adrc.core.errors import RaisedError

@@ -64,8 +64,7 @@ _floats = once(floats_inside)
 def paths(tree: object) -> list[str]:
     """Name of each number in `floats`, in the same order: field names and indices, such as
     k.tracking.K_p[0]."""
-    places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
-    return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
+    return [place for name, x in leaves(tree) for place in Layout.of(x).names(name)]
 
 
 def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:

@@ -53,8 +53,6 @@ RIGID = "rigid"
 """Name of a walker's own plant: the stance foot is pinned, impacts are plastic and take no time."""
 # walks of a study share these, so that they are compared by identity
 _sampled, _motors = lru_cache(maxsize=64)(SampledTime), lru_cache(maxsize=64)(Motors)
-OF_GROUND = ("friction", "time_constant", "damping_ratio")
-"""Values of the record of the ground that soft ground takes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,8 +302,8 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     # a value of the user's that neither the plant nor its ground takes is an error
     all_taken("ground", g.own, {**takes(make), **takes(SoftGround)})
     # `construct` calls a class with those values that it takes; h: integration step of the plant
-    # OF_GROUND: values of the record that SoftGround takes
-    options = g.own | {name: getattr(g, name) for name in OF_GROUND}
+    # beside the user's own those values of the record that SoftGround takes
+    options = g.own | {x: getattr(g, x) for x in ("friction", "time_constant", "damping_ratio")}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": g.engine_step})
     return fastest_loop(walker, plant, s.run.engine, s.run.first_step)

@@ -28,7 +28,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, ValidationInfo
 from pydantic.functional_validators import field_validator, model_validator
 
-from biped_adrc.core.checks import members
+from biped_adrc.core.checks import IN_WORDS, members
 from biped_adrc.core.errors import InputError, complaint, dotted_place, unknown
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
@@ -37,11 +37,8 @@ from biped_adrc.scenario.dotted import NAME, flat, merged, tables
 from biped_adrc.scenario.units import ANY, PLAIN, own_quantity, quantity
 
 _T = TypeVar("_T")
-_KINDS = {
-    float: "a number",
+_KINDS = IN_WORDS | {
     int: "a whole number",
-    bool: "true or false",
-    str: "a text",
     tuple: "a list",
     dict: "a table",
     object: "a record",

@@ -31,10 +31,9 @@ from numpy.typing import ArrayLike, NDArray
 from biped_adrc.analysis.certificate import Support, supports
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.closed_loop.other_plant import as_walked
-from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.shown import short, shown
@@ -96,8 +95,7 @@ class Stepper:
     def __init__(self, what: Scenario | Walker, count: int = 1, within: Limits | None = None):
         check_part(what, "what is moved by samples", Scenario, Walker)
         check_count(count, f"the number of walks is {count}")
-        if within is not None:
-            check_part(within, "within", Limits)
+        check_part(within, "within", Limits, type(None))
         self.what = what
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
