@@ -115,9 +115,9 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         check_fields(self)
         # a longest single support and a height of a fall are a walker's: these two values pass the check
         check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
-        n, known = self.plant.n, self.nominal.n
-        if known != n:
-            raise InputError(f"the model has {known} coordinates, the plant {n}; they must agree")
+        n, model = self.plant.n, self.nominal.n
+        if model != n:
+            raise InputError(f"the model has {model} coordinates, the plant {n}; they must agree")
         if not self.sampled and (self.sensors or self.motors):
             raise InputError(
                 f"sensors and motors work in sampled time, found {type(self.timing).__name__}; give "
@@ -373,21 +373,16 @@ def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
 
 @once
 def _held(
-    time: SampledTime,
-    motors: Motors,
-    sensor: Sensor | None,
-    touchdown: Touchdown | None,
-    n: int,
-    p: int,
-    own: int,
+    time: SampledTime, motors: Motors, sensor: Sensor | None, detector: Touchdown | None, *more: int
 ) -> HeldParts:
-    """Compute `ClosedLoop.held` for n coordinates, p motors and `own` numbers of a plant that moves by itself.
-    It is remembered in `time`, so that loops with equal parts share the result."""
+    """Compute `ClosedLoop.held`; more: n coordinates, p motors and `own` numbers of a plant that moves by
+    itself. It is remembered in `time`, so that loops with equal parts share the result."""
+    n, p, own = more
     # drive: rate limit, lag and delay of the motors; line: torques on their way, here for their layout
     sensors = None if sensor is None else sensor.sampled(n, p, time.period)
     drive, line = motors.sampled(p, time.delay, time.period)
     known = time.delay_known and time.delay > 0.0
-    return frozen(HeldParts(sensors, drive, touchdown, known, own, Layout.of(line)))
+    return frozen(HeldParts(sensors, drive, detector, known, own, Layout.of(line)))
 
 
 @once

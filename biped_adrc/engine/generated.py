@@ -9,7 +9,7 @@ from collections.abc import Callable, Hashable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from biped_adrc.engine.machine import Code, stored
+from biped_adrc.engine.machine import Code, from_disk
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.structure import lasting
 
@@ -56,7 +56,7 @@ def generated_text(
         try:
             # from the disk, where another process has made a text of the same structure
             name = lasting(key)  # empty for a structure with classes of the user's
-            text = stored(name, lambda: write().encode()).decode() if name else write()
+            text = from_disk(name, lambda: write().encode()).decode() if name else write()
             code = Code(text, names, optimised)
         except NotCompiled as error:
             code = str(error)

@@ -1,7 +1,7 @@
 """Machine code of modules in LLVM's language, kept on disk with checksums.
 
 Last stage of the compiler that makes machine code of methods, such as a controller's. Object code is stored
-under the hash of the text and of what compiles it; other stages store texts in the same way (`stored`).
+under the hash of the text and of what compiles it; other stages store texts in the same way (`from_disk`).
 A file is written under another name and then renamed, so several processes may make the same one; a damaged
 file is made again, and where nothing can be written code is made in memory each time.
 """
@@ -53,15 +53,15 @@ def load_or_compile(text: str, names: Sequence[str], optimised: bool = False) ->
     another process may do so, and then writes the same file.
     """
 
-    def compiled() -> bytes:
+    def code() -> bytes:
         host = _target()
         return object_code(parsed(text, host), host, optimised)
 
     with LOCK:
-        code = stored(hash_of(text, str(optimised)), compiled)
+        found = from_disk(hash_of(text, str(optimised)), code)
         # the engine wants a module of its own, which is empty; the functions come with the object file
         engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
-        engine.add_object_file(binding.ObjectFileRef.from_data(code))
+        engine.add_object_file(binding.ObjectFileRef.from_data(found))
         engine.finalize_object()
         # never freed: runs hold addresses of their functions
         _ENGINES.append(engine)
@@ -142,32 +142,22 @@ def _path(key: str) -> Path:
     return folder / "code" / f"{key}.bin"
 
 
-def fetch(key: str) -> bytes | None:
-    """The object code or text stored on disk under `key`; None when it is not there or its checksum is wrong.
+def from_disk(key: str, make: Callable[[], bytes]) -> bytes:
+    """The object code or text stored on disk under `key`; where it is not there, or its checksum is wrong, what
+    make() gives, which is then stored, if that is possible.
 
     The checksum covers the key too, so a file under a wrong name is noticed.
     """
-    try:
+    with suppress(OSError):
         data = _path(key).read_bytes()
-    except OSError:
-        return None
-    # CHECK: bytes of the checksum at the beginning of the file
-    check, code = data[:CHECK], data[CHECK:]
-    return code if hashlib.sha256(key.encode() + code).digest() == check else None
-
-
-def stored(key: str, make: Callable[[], bytes]) -> bytes:
-    """The object code or text stored on disk under `key`; else what make() gives, which is then stored."""
-    code = fetch(key)
-    if code is None:
-        store(key, code := make())
-    return code
-
-
-def store(key: str, code: bytes) -> None:
-    """Store object code or a text on disk under `key`, with a checksum; where that fails, nothing happens."""
+        # CHECK: bytes of the checksum at the beginning of the file
+        check, code = data[:CHECK], data[CHECK:]
+        if hashlib.sha256(key.encode() + code).digest() == check:
+            return code
+    code = make()
     with suppress(OSError, OutputError):
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
+    return code
 
 
 VARIABLE = "BIPED_ADRC_CACHE"

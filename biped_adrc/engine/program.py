@@ -21,7 +21,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
@@ -182,8 +182,6 @@ class CompiledWalker:
     """Its functions, and the vector K of its numbers."""
     plan: CompiledRun
     """A run that has not begun: sizes, addresses, tables and settings; each run starts in a copy of it."""
-    label: str
-    """Name and step of the method of integration, for records."""
     still: _Still
     """What of it does not depend on the disturbance."""
 
@@ -197,7 +195,7 @@ class CompiledWalker:
         reference: Reference | None = None,
         in_python: bool = False,
         loaded: bool = True,
-    ) -> CompiledWalker:
+    ) -> Self:
         """Make the tables of a run that begins at t_first [s], for states of this layout
         (`ClosedLoop.layout_of`).
 
@@ -210,12 +208,10 @@ class CompiledWalker:
         """
         # all that does not depend on the disturbance, remembered from earlier calls
         still = _still(walker.undisturbed, method, layout, reference, in_python, loaded)
-        return cls._under(walker, still, t_first, method.label, loaded)
+        return cls._under(walker, still, t_first, loaded)
 
     @classmethod
-    def _under(
-        cls, walker: Walker, still: _Still, t_first: float, label: str, loaded: bool = True
-    ) -> CompiledWalker:
+    def _under(cls, walker: Walker, still: _Still, t_first: float, loaded: bool = True) -> Self:
         """Add the walker's disturbance to what is `still`; see `of`."""
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
@@ -233,20 +229,20 @@ class CompiledWalker:
         run = still.plan(tables)
         # pulled: whether a force from outside may act, besides torques
         run["t_first"], run["pulled"] = t_first, push.pulls
-        return cls(walker, still.program, run, label, still)
+        return cls(walker, still.program, run, still)
 
     @cached_property
     def terms(self) -> tuple[Disturbance, ...]:
         """The terms of its disturbance."""
         return (self.walker.disturbance or NO_PUSH).terms
 
-    def like(self, walker: Walker) -> CompiledWalker | None:
+    def like(self, walker: Walker) -> Self | None:
         """The compiled form of a walker that differs from this one in its disturbance and in numbers of its
         controller alone; None where `of` has to look: its controller has another structure or NaN, or other
         numbers than its own depend on it.
         """
         if walker.controller is self.walker.controller:
-            return self._under(walker, self.still, self.plan["t_first"], self.label)
+            return self._under(walker, self.still, self.plan["t_first"])
         program, law = self.program, walker.law
         old, numbers = program.numbers, program.numbers._replace(controller=law)
         own, K = np.array(floats_inside(law)), program.K.copy()
@@ -258,7 +254,7 @@ class CompiledWalker:
         other = replace(program, numbers=numbers)
         vars(other)["key"] = program.key  # computed already, and equal for laws that are alike
         still = self.still._replace(program=other, tables={**self.still.tables, "K": K})
-        return self._under(walker, still, self.plan["t_first"], self.label)
+        return self._under(walker, still, self.plan["t_first"])
 
 
 class _Still(NamedTuple):
@@ -266,6 +262,8 @@ class _Still(NamedTuple):
     it."""
 
     program: Program
+    label: str
+    """Name and step of the method of integration, for records."""
     tables: dict[str, Array]
     """Vectors of `kernels.record.Run` by name, without those of the disturbance."""
     fields: dict[str, float]
@@ -338,4 +336,4 @@ def _still(
         fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
     has = program.address if loaded else program.machine.names.count
     fields |= {name: has(name) for name in FUNCTIONS}
-    return _Still(program, tables, fields, {})  # {}: no plan has been made yet
+    return _Still(program, method.label, tables, fields, {})  # {}: no plan has been made yet

@@ -150,7 +150,7 @@ def _check(arcs: Sequence[Arc]) -> None:
         floats = all(values.dtype.kind == "f" for values in (t, x, arc.dx, *read, *states))
         if not (rows and widths and floats):
             raise ValueError(
-                f"arc {i} has {t.shape} times, {x.shape} states and others that differ"
+                f"arc {i} has {t.shape} times, states {x.shape} and others that do not fit"
             )
         # not of `read`: a signal may be NaN, such as the estimate of xi where there is no observer
         if not all(np.isfinite(values).all() for values in (t, x, arc.dx, *states)):

@@ -52,7 +52,7 @@ from biped_adrc.scenario.scenario import Scenario, drawn
 RIGID = "rigid"
 """Name of a walker's own plant: the stance foot is pinned, impacts are plastic and take no time."""
 # walks of a study share these, so that they are compared by identity
-_sampled, _motors = lru_cache(maxsize=64)(SampledTime), lru_cache(maxsize=64)(Motors)
+_clock, _motors = lru_cache(maxsize=64)(SampledTime), lru_cache(maxsize=64)(Motors)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +187,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
         plant,
         scene.controller(s, course.lengths if course else ()),
         disturbances(s, biped, gait.period, plant),
-        ContinuousTime() if period is None else _sampled(period, *clock),
+        ContinuousTime() if period is None else _clock(period, *clock),
         model=None if plant is biped else biped,
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,

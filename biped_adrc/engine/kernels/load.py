@@ -19,7 +19,7 @@ from typing import Any
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.engine.kernels.write import sources, written
-from biped_adrc.engine.machine import LOCK, hash_of, load_or_compile, stored
+from biped_adrc.engine.machine import LOCK, from_disk, hash_of, load_or_compile
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (
@@ -85,7 +85,7 @@ def loops(files: tuple[str, ...] = FILES) -> str:
         )
     # WRITER: the module that writes the text
     key = hash_of(sources((*files, WRITER)), version("numba"))
-    return stored(key, lambda: written(files).encode()).decode()
+    return from_disk(key, lambda: written(files).encode()).decode()
 
 
 def text_file(files: tuple[str, ...]) -> Path:
