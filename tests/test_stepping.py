@@ -17,8 +17,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.feet import with_readings
-from biped_adrc.closed_loop.other_plant import stepping_loop
+from biped_adrc.closed_loop.other_plant import stepping_loop, with_readings
 from biped_adrc.closed_loop.protocols import Contact, Moved
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import InputError, RaisedError

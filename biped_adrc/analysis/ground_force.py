@@ -18,7 +18,7 @@ import numpy as np
 from biped_adrc.analysis.signals import Signals, nodes_before_fall
 from biped_adrc.closed_loop.instant_signals import NodeRow, StepReading, node_layout
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.core.once import once
+from biped_adrc.core.part import once
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.engine.kernels.load import compiled

@@ -40,14 +40,15 @@ from functools import partial
 
 import numpy as np
 
-from biped_adrc.closed_loop.feet import FEET
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
+from biped_adrc.closed_loop.other_plant import FEET
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by, tracked_point
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.linear import lapack
 from biped_adrc.core.shown import Frozen
 from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array, Flags
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.reference import Reference
@@ -216,7 +217,7 @@ def compiled_readings(
     reference: the curve from which errors are taken, which need not be the one the controller tracked. Where
     the disturbance jumps at a node it has its value from before, as `_inputs` takes the times `arc.seen`.
     """
-    from biped_adrc.engine.calls import Call, parts_of
+    from biped_adrc.engine.calls import Call
     from biped_adrc.engine.not_compiled import NotCompiled
     from biped_adrc.engine.numbers import numbers_of
     from biped_adrc.engine.program import COMPILED, Program
@@ -233,13 +234,12 @@ def compiled_readings(
         code, K = program.reading(signals_at), program.K
     except (NotCompiled, ModelError):
         return None
-    # one instant in Python, for the shapes of the results alone
-    example = signals_at(walker, first.t[0], first.x[0], first.mode, point)
-    shapes = tuple(np.shape(part) for part in example)
+    # one instant in Python, for the layout of the results alone
+    result = Layout.of(signals_at(walker, first.t[0], first.x[0], first.mode, point))
     # 0 inputs of its own: `rows` gets them; all results of a node lie in one row
-    call = Call(code, "reading", K, 0, sum(map(math.prod, shapes)))
+    call = Call(code, "reading", K, 0, result.size)
     out = np.vstack([call.rows(_inputs(walker, arc)) for arc in trajectory.arcs])
-    return InstantSignals(*parts_of(out, shapes))
+    return result.tree(out)
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:

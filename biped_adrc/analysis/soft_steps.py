@@ -8,8 +8,8 @@ both feet at each node, a stored instant of the run; K nodes make an arc, that o
     depth        of a foot point below the ground
 
 F_N and F_T are the forces of the ground on a foot out of it and along it, v_T is the foot's velocity along it,
-and mu the friction of the ground. Times are of the nodes (`closed_loop.feet`), each of which stands for half
-the time to its neighbours, so that single support, double support and flight add up to the duration.
+and mu the friction of the ground. Times are of the nodes (`closed_loop.other_plant`), each of which stands for
+half the time to its neighbours, so that single support, double support and flight add up to the duration.
 
 `contact_errors` separates the error that a touchdown leaves from the error that a push causes:
 
@@ -28,7 +28,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.closed_loop.feet import FEET
+from biped_adrc.closed_loop.other_plant import FEET
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, Flags

@@ -1,6 +1,7 @@
 """A walker's walk on a plant that moves by itself: its controller, sensors, motors and pushes, another ground.
 
     walker -> SteppingLoop -> Trajectory with states (q, q', s, held), as the rigid plant's
+    footing(row, u, load) -> Feet     a method of the plant, for instance of `MuJoCoPlant`
 
 A plant that moves by itself, with an integration and contacts of its own such as MuJoCo's, is a
 `protocols.SteppingPlant`; the rigid plant is the walker's own, with a pinned stance foot and an impact map. q
@@ -9,21 +10,20 @@ motors hold between sample instants. Steps of the ground are places where it fal
 the plant keeps for itself are taken out of the states, so that whatever reads a walk reads this one; forces of
 the ground, places and velocities of both feet, which could not be computed without them, are recorded at the
 nodes (instants whose state is stored) where the plant has feet.
+
+row (2 n + k,) is the plant's whole state, (q, q', and k numbers of its own), u (p,) [N m] the torque asked of
+the p motors, load what acts from outside: the disturbance zeta (n,) [N m] and its resultant force [N]. Forces
+of the ground follow from these, so a run does not compute them: `with_readings` asks the plant at every node of
+a finished run and adds the answers to the arcs (`Arc.read`). An arc is the motion of one single support.
 """
 
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from biped_adrc.closed_loop.feet import with_readings
-from biped_adrc.closed_loop.protocols import (
-    LaggingPlant,
-    OnFeet,
-    SteppingPlant,
-    UnevenPlant,
-    lag_of,
-)
+from biped_adrc.closed_loop.protocols import LaggingPlant, Load, OnFeet, SteppingPlant, UnevenPlant
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError
@@ -52,16 +52,16 @@ def stepping_loop(
             f"the walker has an error of the impact map, and {type(plant).__name__} takes none; leave that "
             "out, or walk on the rigid plant"
         )
-    if not walker.sampled:
-        raise InputError(
-            f"{type(plant).__name__} is controlled at ticks, and this walker acts at every instant; give a "
-            "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
-        )
     motors = None if walker.motors is None else replace(walker.motors, lag=0.0)
     # a walker has all fields of a loop; the model of its controller does not change with the plant
     values = {f.name: getattr(walker, f.name) for f in fields(SteppingLoop)}
     values |= {"plant": _fitted(plant, walker, first_step), "model": walker.nominal}
     return kind(**values | {"motors": motors})
+
+
+def lag_of(plant: SteppingPlant) -> float:
+    """Time constant of the plant's motors [s]; 0 for a plant without such a property."""
+    return plant.lag if isinstance(plant, LaggingPlant) else 0.0
 
 
 def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
@@ -70,9 +70,7 @@ def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPl
     name, steps = type(plant).__name__, walker.ground_steps
     # a walker without a slope (None) walks on the plant's, and a plant that has none takes any
     if walker.slope not in (None, slope := getattr(plant, "slope", walker.slope)):
-        raise InputError(
-            f"{name} has a slope of {slope} rad, and the walker {walker.slope}; give one"
-        )
+        raise InputError(f"{name} has a slope of {slope} rad, the walker {walker.slope}; give one")
     lag = 0.0 if walker.motors is None else walker.motors.lag
     own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
     for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):
@@ -154,3 +152,49 @@ def _values(thing: Any) -> Any:
         return thing if isinstance(thing, int | float | str) else type(thing).__name__
     values = {f.name: _values(getattr(thing, f.name)) for f in fields(thing) if f.init}
     return {"class": type(thing).__name__, **values}
+
+
+FEET = ("foot_force", "foot_place", "foot_speed", "foot_level")
+"""Names of what `with_readings` records, in the order of `Feet`: forces [N], places [m] and velocities [m/s],
+(K, 4) each, x and z of the stance foot before those of the other; heights of the ground [m], (K, 2)."""
+
+
+def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
+    """A copy of a run of this loop whose arcs have, in `Arc.read`, the readings FEET at their K nodes; also "u"
+    (K, p), the motors' torque, and "zeta" (K, n) [N m], where an arc does not have them yet. `_passed` gives
+    state and load of each node. Raises InputError for a plant without feet."""
+    plant, arcs = loop.plant, []
+    if not isinstance(plant, OnFeet):
+        raise InputError(
+            f"{type(plant).__name__} does not say what its feet do, expected a plant with footing(row, u, "
+            "load), such as MuJoCoPlant"
+        )
+    for arc in run.arcs:
+        rows = []
+        for x, load in _passed(loop, arc):
+            # the last p numbers of x are the torque that is asked of the motors
+            feet = plant.footing(loop.row(x), x[-plant.p :], load)
+            # ravel: (2, 2) of both feet becomes a row of 4
+            rows.append((loop.motor_torque(x), load.zeta, *map(np.ravel, feet)))
+        columns = map(np.array, zip(*rows, strict=True))
+        read = dict(zip(("u", "zeta", *FEET), columns, strict=True))
+        # read | arc.read: what the arc recorded itself counts; one that failed at once has no u and zeta
+        arcs.append(replace(arc, read=read | arc.read))
+    return replace(run, arcs=tuple(arcs))
+
+
+def _passed(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[Array, Load]]:
+    """Yield the state x (nx,) at each node of an arc, and the load under which the plant moved there.
+
+    The time between two sample instants or switching times is a stretch: it has two nodes, at its start and its
+    end, and the load is constant over it, with its value in the middle. A last node alone is where the plant
+    could not go on.
+    """
+    # a stretch begins at each node after which time goes on; where one ends the next begins, at the same time
+    times, pieces = arc.t.tolist(), np.flatnonzero(np.diff(arc.t) > 0.0)
+    for k in pieces:
+        load = loop.load(0.5 * (times[k] + times[k + 1]), loop.row(arc.x[k]), arc.mode)
+        yield arc.x[k], load
+        yield arc.x[k + 1], load
+    if len(times) > 2 * len(pieces):
+        yield arc.x[-1], loop.load(times[-1], loop.row(arc.x[-1]), arc.mode)

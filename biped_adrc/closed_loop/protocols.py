@@ -54,6 +54,10 @@ class Mode(NamedTuple):
     start: float = 0.0
 
 
+FootForces = tuple[float, float]
+"""Vertical forces of the ground on stance and swing foot [N]."""
+
+
 class Motored(Protocol):
     """A robot of n coordinates, of which the first p have motors."""
 
@@ -127,15 +131,6 @@ class Loop(Protocol):
     def held(self) -> HeldParts | None:
         """Parameters of what is held between sample instants; None in continuous time."""
 
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
-        gets entry swap[i] of (y, -y) (`types.relabelled`)."""
-
-    @property
-    def gain(self) -> Array:
-        """Relative errors of the impact map: v+ = (1 + gain) v+, (n,) [1], or empty for none."""
-
     def layout_of(self, x: Array) -> Layout:
         """The layout of a state x (nx,): which numbers of it are which part of a `semantics.State`."""
 
@@ -154,11 +149,9 @@ class Loop(Protocol):
         """The state `after` that a method of a sensor or detector returned; it has to have the layout of the
         state `before`."""
 
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-    ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N] at t [s], q (n,) [rad], v (n,) [rad/s],
-        under the torque in `tail`, the held part of the state."""
+    def foot_forces(self, t: float, q: Array, v: Array, tail: Tail, mode: Mode) -> FootForces:
+        """The forces of the ground at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`, the held
+        part of the state."""
 
     def bounded(self, u: Array) -> Array:
         """Return u (p,) [N m] unchanged; the run ends as run away where it is beyond what motors can give."""
@@ -270,8 +263,3 @@ class UnevenPlant(SteppingPlant, Protocol):
 
     def on_steps(self, steps: tuple[StepDown | StepUp, ...], first_step: int) -> SteppingPlant:
         """A copy of the plant on these steps of the ground; its first single support is number `first_step`."""
-
-
-def lag_of(plant: SteppingPlant) -> float:
-    """Time constant of the plant's motors [s]; 0 for a plant without such a property."""
-    return plant.lag if isinstance(plant, LaggingPlant) else 0.0

@@ -51,14 +51,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.protocols import Loop, Mode
+from biped_adrc.closed_loop.protocols import FootForces, Loop, Mode
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.tree import chosen, flatten
 from biped_adrc.core.types import Array, frozen, relabelled
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import HeldParts, Tail, motor_torque
-from biped_adrc.hardware.touchdown import Belief, Look, Touchdown
+from biped_adrc.hardware.touchdown import Belief, Look
 from biped_adrc.model.reduction import Reduction, unknown_force
 
 
@@ -190,7 +190,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
 def on_stance_foot(
     loop: Loop, resultant: Array, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-) -> tuple[float, float]:
+) -> FootForces:
     """Vertical forces of the ground on stance and swing foot [N], the latter 0, of a plant whose stance foot is
     pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
 
@@ -237,13 +237,13 @@ def xi_unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) ->
     return zeta if loop.exact else unknown_force(terms, a, u)
 
 
-def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
+def strike(loop: Loop, t: float, x: Array, after: Mode, gain: Array) -> Array:
     """x+ (nx,) after impact, relabelling and the controller's jump, for x- = x (nx,) at t [s]. after: the
-    single support that begins. loop.gain (n,) [1], empty for none: error of the impact map,
-    v+ becomes (1 + gain) v+."""
+    single support that begins. gain (n,) [1], empty for none: relative error of the impact map, v+ becomes
+    (1 + gain) v+."""
     q, v, _, _ = parts(loop, x)
     impact = loop.plant.impact(q, v)
-    v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
+    v_plus = impact.v * (1.0 + gain) if len(gain) > 0 else impact.v
     return after_contact(loop, t, x, impact.q, v_plus, after)
 
 
@@ -263,17 +263,21 @@ def after_contact(
     # the (q, q') that the controller gets: the true ones, unless it has sensors
     reading = q_plus, v_plus
     if k is not None:
-        tail = tail._replace(line=tail.line.relabelled(loop.swap))
+        tail = tail._replace(line=tail.line.relabelled(loop.plant.swap))
         if k.touchdown is not None:
-            belief = unnoticed(loop, k.touchdown, tail.belief, t)
-            return flatten(State(q_plus, v_plus, s, tail._replace(belief=belief)))
+            # the plant's legs exchange their names and the controller keeps its own: `other` changes, and the
+            # detector's memory d may
+            b, other = tail.belief, 1.0 - tail.belief.other
+            d = k.touchdown.touchdown(b.d, other, t)
+            b = b._replace(other=other, d=loop.checked(k.touchdown, "touchdown", b.d, d))
+            return flatten(State(q_plus, v_plus, s, tail._replace(belief=b)))
         if k.sensors is not None:
             # the last measured rates, mapped by the nominal model's impact
             expected = loop.nominal.impact(*sensor_readings(loop, k, tail.sensors, q, v)).v
             w = k.sensors.impact(tail.sensors, q_plus, v_plus, expected)
             tail = tail._replace(sensors=loop.checked(k.sensors, "impact", tail.sensors, w))
         reading = sensor_readings(loop, k, tail.sensors, q_plus, v_plus)
-    s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.swap)
+    s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.plant.swap)
     return flatten(State(q_plus, v_plus, s, tail))
 
 
@@ -353,7 +357,7 @@ def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
     plant's (b.other is 1): from the plant's to the controller's, or back. b is None for a controller that knows
     touchdowns at once."""
     # both are computed and one is chosen: on symbols b.other has no value that an `if` could ask
-    return line if b is None else chosen(b.other, line.relabelled(loop.swap), line)
+    return line if b is None else chosen(b.other, line.relabelled(loop.plant.swap), line)
 
 
 def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Array | None:
@@ -370,12 +374,4 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
     if estimate is None:
         return None
     xi = estimate.disturbance
-    return xi if b is None else chosen(b.other, relabelled(xi, loop.swap), xi)
-
-
-def unnoticed(loop: Loop, touchdown: Touchdown, b: Belief, t: float) -> Belief:
-    """The belief b just after a true touchdown at t [s], at which the plant's legs exchange their names and the
-    controller keeps its own: `other` changes, and the detector's memory d may."""
-    other = 1.0 - b.other
-    d = loop.checked(touchdown, "touchdown", b.d, touchdown.touchdown(b.d, other, t))
-    return b._replace(other=other, d=d)
+    return xi if b is None else chosen(b.other, relabelled(xi, loop.plant.swap), xi)

@@ -27,15 +27,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from biped_adrc.closed_loop.protocols import (
-    Contact,
-    LaggingPlant,
-    Load,
-    Mode,
-    Moved,
-    OnFeet,
-    SteppingPlant,
-)
+from biped_adrc.closed_loop import protocols
+from biped_adrc.closed_loop.protocols import Contact, FootForces, Load, Mode, SteppingPlant
 from biped_adrc.closed_loop.semantics import after_contact
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.checks import handing_out, numbers, returned
@@ -69,7 +62,7 @@ class SteppingLoop(ClosedLoop[Any]):
         if not isinstance(self.timing, SampledTime):
             raise InputError(
                 f"a plant that moves by itself is controlled at ticks, found {type(self.timing).__name__}; "
-                "give timing=SampledTime(period)"
+                "give timing=SampledTime(1e-3), or period = 0.001 in a scenario"
             )
         if not isinstance(self.plant, SteppingPlant) or self.model is None:
             raise InputError(
@@ -79,7 +72,7 @@ class SteppingLoop(ClosedLoop[Any]):
         super().__post_init__()
         check_swap(self.plant)
         felt = self.touchdown is not None and self.touchdown.needs_force
-        if felt and not isinstance(self.plant, OnFeet):
+        if felt and not isinstance(self.plant, protocols.OnFeet):
             raise InputError(
                 f"{type(self.plant).__name__} does not say what its feet carry (footing), and "
                 f"{type(self.touchdown).__name__} goes by that; give another touchdown, such as ByKinematics()"
@@ -212,13 +205,11 @@ class SteppingLoop(ClosedLoop[Any]):
         """Torque on the joints (.., p) [N m] in states x (.., nx): the torque that is asked of the motors, or
         for motors with a lag the one that the plant keeps."""
         plant, u = self.plant, x[..., -self.plant.p :]
-        if not isinstance(plant, LaggingPlant):
+        if not isinstance(plant, protocols.LaggingPlant):
             return u
         return plant.motor_torque(x[..., self.own_places(x)], u)
 
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-    ) -> tuple[float, float]:
+    def foot_forces(self, t: float, q: Array, v: Array, tail: Tail, mode: Mode) -> FootForces:
         """Vertical forces of the ground on stance and swing foot [N], by the plant's own `footing`, at t [s], q
         (n,) [rad], v (n,) [rad/s], under the torque in `tail`."""
         # tail: the part of x behind the controller's state, with the plant's own numbers and the torques (line)
@@ -244,9 +235,8 @@ class SteppingLoop(ClosedLoop[Any]):
         # returned: checks the shape; numbers that are not finite have an error of their own below
         row = returned(row, self.row(x).shape, self.plant, "advance", finite=False)
         if not np.all(np.isfinite([*row, *impulse])):
-            raise NotFiniteError(
-                f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
-            )
+            what = f"{name} at t = {t:.6g} s: its impulse or the state after it"
+            raise NotFiniteError(f"{what} is not finite")
         after = Mode(mode.step + 1, t)
         x_plus = after_contact(self, t, x, row[:n], row[n : 2 * n], after)
         # after_contact sets q and v of the plant; here its own numbers after the contact are set too
@@ -290,7 +280,7 @@ def advanced(
     `protocols.SteppingPlant`; `found` checks the row after the contacts.
     """
     moved = plant.advance(t, row, u, load, until)
-    if type(moved) is not Moved or type(moved.contacts) is not tuple:
+    if type(moved) is not protocols.Moved or type(moved.contacts) is not tuple:
         raise InputError(
             f"{type(plant).__name__}.advance gives {moved!r:.60}, expected a Moved(t, row, contacts, after)"
         )

@@ -27,16 +27,16 @@ from typing import Any, Generic, NamedTuple, Self, TypeVar, cast
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
+from biped_adrc.closed_loop.protocols import ControlLaw, FootForces, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant, State
 from biped_adrc.control.base import Controller, Measurement, check_methods, has_own_class, nested
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
-from biped_adrc.core.once import once, shared
+from biped_adrc.core.part import once, shared
 from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends
 from biped_adrc.core.tree import Layout, flatten, returned_tree
-from biped_adrc.core.types import Array, Indices, frozen, read_only
+from biped_adrc.core.types import Array, frozen, read_only
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware.motors import IDEAL, Motors
@@ -45,10 +45,6 @@ from biped_adrc.hardware.sensing import Sensing, Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.biped import Biped
-
-TURN = 2.0 * math.pi
-"""Largest |angle| of a joint or of the pitch [rad]: a whole turn, more than cables and legs allow."""
-
 
 RUNAWAY_RATE = 50.0
 """Rate of a joint or of the pitch of which runaway_speed is a multiple [rad/s]."""
@@ -73,9 +69,8 @@ class _Bounds(NamedTuple):
         i, j = int(np.argmax(np.abs(q))), int(np.argmax(np.abs(v) / self.fastest))
         if abs(q[i]) > self.farthest:
             raise RanAwayError(f"t = {t:.6g} s: q{i + 1} is {q[i]:.3g} rad, beyond a whole turn")
-        raise RanAwayError(
-            f"t = {t:.6g} s: |q{j + 1}'| is {abs(v[j]):.3g} rad/s, above {self.fastest[j]:.3g} rad/s"
-        )
+        beyond = f"|q{j + 1}'| is {abs(v[j]):.3g} rad/s, above {self.fastest[j]:.3g} rad/s"
+        raise RanAwayError(f"t = {t:.6g} s: {beyond}")
 
 
 _P = TypeVar("_P", bound=Plant)
@@ -120,10 +115,9 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         check_fields(self)
         # a longest single support and a height of a fall are a walker's: these two values pass the check
         check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
-        if self.nominal.n != self.plant.n:
-            raise InputError(
-                f"the model has {self.nominal.n} coordinates, the plant {self.plant.n}; they must agree"
-            )
+        n, model = self.plant.n, self.nominal.n
+        if model != n:
+            raise InputError(f"the model has {model} coordinates, the plant {n}; they must agree")
         if not self.sampled and (self.sensors or self.motors):
             raise InputError(
                 f"sensors and motors work in sampled time, found {type(self.timing).__name__}; give "
@@ -219,18 +213,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
             return _Bounds(math.inf, read_only(np.full(self.plant.n, math.inf)), math.inf)
         fastest = read_only(np.full(robot.n, self.runaway_speed * RUNAWAY_RATE))
         peak = robot.description.peak_torque if robot.p else math.inf
-        return _Bounds(TURN, fastest, self.runaway_torque * peak)
-
-    @property
-    def gain(self) -> Array:
-        """Relative errors of the impact map in v+: none, an empty array (0,) [1]; a `Walker` may have some."""
-        return np.zeros(0)
-
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
-        gets entry swap[i] of (y, -y)."""
-        return self.plant.swap  # type: ignore[attr-defined]
+        # an angle may come to a whole turn, which is more than cables and legs allow
+        return _Bounds(2.0 * math.pi, fastest, self.runaway_torque * peak)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s]; zeros without one. Raises
@@ -301,7 +285,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
         """s after the controller's jump to m where `fires` is 1 (it notices a touchdown), else s as it is."""
-        return self.calls.jump(s, m, self.swap) if fires > 0.5 else s
+        return self.calls.jump(s, m, self.plant.swap) if fires > 0.5 else s  # type: ignore[attr-defined]
 
     @cached_property
     def _own_hardware(self) -> bool:
@@ -319,9 +303,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
             return tuple([self.checked(x, method, *states) for x, *states in each])
         return frozen(returned_tree(after, Layout.of(before), part, method, finite=False))
 
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-    ) -> tuple[float, float]:
+    def foot_forces(self, t: float, q: Array, v: Array, tail: Tail, mode: Mode) -> FootForces:
         """Vertical forces of the ground on stance and swing foot [N], the latter 0: a plant whose stance foot
         is pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`."""
         return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
@@ -391,21 +373,16 @@ def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
 
 @once
 def _held(
-    time: SampledTime,
-    motors: Motors,
-    sensor: Sensor | None,
-    touchdown: Touchdown | None,
-    n: int,
-    p: int,
-    own: int,
+    time: SampledTime, motors: Motors, sensor: Sensor | None, detector: Touchdown | None, *more: int
 ) -> HeldParts:
-    """Compute `ClosedLoop.held` for n coordinates, p motors and `own` numbers of a plant that moves by itself.
-    It is remembered in `time`, so that loops with equal parts share the result."""
+    """Compute `ClosedLoop.held`; more: n coordinates, p motors and `own` numbers of a plant that moves by
+    itself. It is remembered in `time`, so that loops with equal parts share the result."""
+    n, p, own = more
     # drive: rate limit, lag and delay of the motors; line: torques on their way, here for their layout
     sensors = None if sensor is None else sensor.sampled(n, p, time.period)
     drive, line = motors.sampled(p, time.delay, time.period)
     known = time.delay_known and time.delay > 0.0
-    return frozen(HeldParts(sensors, drive, touchdown, known, own, Layout.of(line)))
+    return frozen(HeldParts(sensors, drive, detector, known, own, Layout.of(line)))
 
 
 @once
@@ -443,10 +420,8 @@ def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
 
 
 @once
-def _check_reference(
-    reference: Reference, owner: str, p: int, t: float, q: bytes, v: bytes
-) -> None:
-    """Evaluate the reference of a controller of the class `owner` at t [s] and the bytes of q and v, and raise
+def _check_reference(reference: Reference, law: str, p: int, t: float, q: bytes, v: bytes) -> None:
+    """Evaluate the reference of a controller of the class `law` at t [s] and the bytes of q and v, and raise
     InputError where it does not fit p motors and the coordinates. What fits is remembered."""
     at = np.frombuffer(q), np.frombuffer(v)
     try:
@@ -456,7 +431,7 @@ def _check_reference(
         raise
     except (ValueError, IndexError, TypeError) as error:
         raise InputError(
-            f"the {type(reference).__name__} of {owner} cannot be evaluated at the "
+            f"the {type(reference).__name__} of {law} cannot be evaluated at the "
             f"{len(at[0])} coordinates of this robot: {error}; expected one of this robot, such as the "
             "constraint of a gait that was designed for it"
         ) from error

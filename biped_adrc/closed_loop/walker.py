@@ -35,7 +35,7 @@ controller's state. `Walker.split` hands these coordinates to the method of inte
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -158,9 +158,7 @@ class Walker(ClosedLoop[Biped]):
         # above -1, so that (1 + gain) v+ keeps the sign of each rate
         gain, n = self.impact_gain, self.plant.n
         if gain and not (len(gain) == n and all(math.isfinite(e) and e > -1.0 for e in gain)):
-            raise InputError(
-                f"the impact gain is {gain}, expected {n} finite numbers above -1, or none"
-            )
+            raise InputError(f"impact gain {gain}, expected {n} finite numbers above -1, or none")
 
     # -- parts -------------------------------------------------------------------------------------
     def check_foot(self, q: Array, v: Array, mode: Mode) -> None:
@@ -218,7 +216,7 @@ class Walker(ClosedLoop[Biped]):
         """x+ (nx,) after impact, relabelling and the controller's jump at t [s], wherever the swing foot is,
         and the mode that begins."""
         after = Mode(mode.step + 1, t)
-        return semantics.strike(self, t, x, after), after
+        return semantics.strike(self, t, x, after, self.gain), after
 
     def drop(self, step: int) -> float:
         """How much lower [m] than the plane through the stance foot the ground is where single support `step`
@@ -244,24 +242,20 @@ class Walker(ClosedLoop[Biped]):
         the impact is; height of the hip over its limit [m], at whose zero the run ends as FELL; time left [s],
         at whose zero it ends as STALLED. Only a zero where the function falls counts."""
         n = self.plant.n
+
+        def clearance(t: float, x: Array) -> float:
+            return self.clearance(x[:n], mode.step)
+
+        def hip(t: float, x: Array) -> float:
+            return float(semantics.hip_margin(self.lowest_hip, self.plant.hip(x[:n])))
+
+        def left(t: float, x: Array) -> float:
+            return float(semantics.time_left(self.max_step_time, mode.start, t))
+
         # each with its name, its function of (t, x), and what follows: a state after it, or the end of the run
-        return (
-            Guard(
-                FOOT_STRIKE,
-                lambda t, x: self.clearance(x[:n], mode.step),
-                lambda t, x: self.strike(t, x, mode),
-            ),
-            Guard(
-                "hip_too_low",
-                lambda t, x: float(semantics.hip_margin(self.lowest_hip, self.plant.hip(x[:n]))),
-                terminal=Status.FELL,
-            ),
-            Guard(
-                "step_too_long",
-                lambda t, x: float(semantics.time_left(self.max_step_time, mode.start, t)),
-                terminal=Status.STALLED,
-            ),
-        )
+        strike = Guard(FOOT_STRIKE, clearance, partial(self.strike, mode=mode))
+        low = Guard("hip_too_low", hip, terminal=Status.FELL)
+        return strike, low, Guard("step_too_long", left, terminal=Status.STALLED)
 
     def split_form(self) -> ErrorForm | None:
         """The change of coordinates for the exponential method; None in sampled time or without a linear

@@ -31,8 +31,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part, line_of, returned, spoken
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.once import once
-from biped_adrc.core.part import Part
+from biped_adrc.core.part import Part, once
 from biped_adrc.core.shown import shown
 from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices

@@ -2,7 +2,7 @@
 
 - `errors`, `checks`, `verdict`  errors with exit codes, checks of a user's input, checks of a computed number
 - `types`, `tree`                types of arrays; states of a controller, as a tree of arrays and as one vector
-- `part`, `once`                 base of controllers, observers and the like; results that are kept in these
+- `part`                         base of controllers, observers and the like; results that are kept in these
 - `shown`                        equality of dataclasses with arrays, and their text on one line
 - `registry`                     names of controllers, observers, robots, gaits, and the classes behind them
 - `timing`                       controller in continuous time, or sampled

@@ -18,7 +18,7 @@ from functools import wraps
 from inspect import unwrap
 from numbers import Integral, Real
 from pathlib import Path
-from types import NoneType, UnionType
+from types import CodeType, NoneType, UnionType
 from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 from weakref import WeakKeyDictionary
 
@@ -79,7 +79,7 @@ NonNegativeFloats = Annotated[_ROW, each("finite numbers, none below 0", _NOT_BE
 TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfinite, 2)]
 
 
-_NUMBERS: dict[Any, str] = {
+IN_WORDS: dict[Any, str] = {
     float: "a number",
     Integral: "a whole number",
     bool: "true or false",
@@ -101,7 +101,7 @@ def check_part(value: object, what: str, *kinds: type) -> None:
         return
     named = [kind for kind in kinds if kind is not NoneType]
     # _a: name of a class with its article, such as "a Gait"; _shown: short text of a value
-    words = " or ".join(_NUMBERS.get(kind) or _a(kind) for kind in named)
+    words = " or ".join(IN_WORDS.get(kind) or _a(kind) for kind in named)
     examples = [vars(kind)["SUCH_AS"] for kind in named if "SUCH_AS" in vars(kind)]
     such_as = f", such as {examples[0]}" if examples else ""
     raise InputError(f"{what} is {_shown(value)}, expected {words}{such_as}")
@@ -305,13 +305,17 @@ def handing_out() -> Iterator[None]:
         raise RaisedError(told) from error
 
 
+def calls_of(error: Exception) -> list[tuple[CodeType, traceback.FrameSummary]]:
+    """Code and line of each call that an exception has passed, the innermost last."""
+    codes = (frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__))
+    return list(zip(codes, traceback.extract_tb(error.__traceback__), strict=True))
+
+
 def sentence_of(error: Exception) -> str:
     """Sentence on an exception in a user's code: "PD.output (own.py:12, `x = 1 / 0`) raised ..."; empty for
     one in which no line of the user's was running.
     """
-    frames = traceback.walk_tb(error.__traceback__)
-    lines = zip(frames, traceback.extract_tb(error.__traceback__), strict=True)
-    own = [(frame.f_code, line) for (frame, _), line in lines if is_users(line.filename)]
+    own = [call for call in calls_of(error) if is_users(call[1].filename)]
     if not own:
         return ""
     code, line = own[-1]  # the innermost call
@@ -387,11 +391,11 @@ def _allowed(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether a type can be checked: a class of this package but no protocol, a key of `_NUMBERS`
+    """Whether a type can be checked: a class of this package but no protocol, a key of `IN_WORDS`
     (float, Integral, str, Mapping), or None.
     """
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
-    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*_NUMBERS, NoneType)
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*IN_WORDS, NoneType)
 
 
 def _shown(value: Any) -> str:

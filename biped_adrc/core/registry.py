@@ -40,7 +40,8 @@ FOLDERS: dict[str, str] = {}
 """Name of a user's module -> folder of the study file that names a class of it; workers are handed a copy."""
 _IMPORTING = RLock()
 """Held while folders are on the path: threads share it, and a module may name others while it is imported."""
-_VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
+Maker = Callable[..., object]
+"""A class or function that makes a part."""
 
 
 @dataclass(frozen=True)
@@ -58,10 +59,10 @@ class _Entry:
     over_steps: bool = False
     """For a disturbance: whether it goes on over impacts, with its window in the time of the walk; else its
     window is in the time of one single support."""
-    given: Callable[..., object] | None = None
+    given: Maker | None = None
     """The object itself, where `register` was given it; None: it is imported from `home`."""
 
-    def load(self) -> Callable[..., object]:
+    def load(self) -> Maker:
         """The class or function itself. Raises InputError where the user's own cannot be imported."""
         return _imported(self.home) if self.given is None else self.given
 
@@ -88,7 +89,7 @@ def stored(kind: str) -> Iterable[str]:
     return sorted({p.stem for p in data_folder("gaits").glob("*/*.json")}) if kind == "gait" else ()
 
 
-def register(kind: str, name: str, thing: Callable[..., object], words: str = "") -> None:
+def register(kind: str, name: str, thing: Maker, words: str = "") -> None:
     """Make a class or function of one's own known by a name, in this process.
 
     name: that by which scenarios refer to it. thing: the class or function. kind: "controller", "contact",
@@ -180,7 +181,7 @@ def top_of(home: str) -> str:
     return home.partition(":")[0].partition(".")[0]
 
 
-def _imported(home: str) -> Callable[..., object]:
+def _imported(home: str) -> Maker:
     """The class `module:Class`, from Python's path, the folder of its study file or the working directory.
 
     A folder that has the module is at the end of the path while it is imported, so that it cannot hide an
@@ -205,7 +206,7 @@ def _imported(home: str) -> Callable[..., object]:
 
 
 @lru_cache(maxsize=1024)
-def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
+def takes(make: Maker) -> Mapping[str, Parameter]:
     """Name -> parameter of a class or function, but for *args and **kwargs.
 
     The latest results are kept, since each walk of a study asks for the same. Raises InputError for what has no
@@ -215,22 +216,19 @@ def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
         result = signature(make).parameters
     except (TypeError, ValueError) as error:
         raise InputError(f"{error}; expected a class or a function written in Python") from error
-    # _VARIADIC: the kinds of *args and **kwargs, which name nothing
-    return MappingProxyType({name: p for name, p in result.items() if p.kind not in _VARIADIC})
+    # *args and **kwargs, which name nothing
+    variadic = Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD
+    return MappingProxyType({name: p for name, p in result.items() if p.kind not in variadic})
 
 
-def lacking(make: Callable[..., object], values: Container[str]) -> list[str]:
+def lacking(make: Maker, values: Container[str]) -> list[str]:
     """Names of parameters of `make` that have no default and are not among the names `values`."""
     parameters = (p for p in takes(make).values() if p.default is Parameter.empty)
     return [p.name for p in parameters if p.name not in values]
 
 
 def construct(
-    what: str,
-    make: Callable[..., object],
-    values: Mapping[str, object],
-    kind: type[T],
-    place: str = "",
+    what: str, make: Maker, values: Mapping[str, object], kind: type[T], place: str = ""
 ) -> T:
     """Call make with those values whose names are parameters of it, and return the result, which has to be an
     object of class `kind`.

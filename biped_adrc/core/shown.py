@@ -50,11 +50,10 @@ class ByValue:
         """Hash of class and fields; for what is no dataclass, of its identity."""
         if not is_dataclass(self):
             return object.__hash__(self)
-        # a dict of results, which `core.once` puts into an object in which nothing can change; else None
-        memory = vars(self).get("_once")
-        return (
-            memory.found("hash", lambda: hash(value_of(self))) if memory else hash(value_of(self))
-        )
+        # a dict of results, which `core.part.once` puts into an object in which nothing can change; else None
+        if memory := vars(self).get("_once"):
+            return memory.found("hash", lambda: hash(value_of(self)))
+        return hash(value_of(self))
 
 
 def value_of(x: Any) -> Hashable:

@@ -17,8 +17,6 @@ from biped_adrc import __version__
 
 _SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
 """Packages that a report lists."""
-NUMERICAL = (*_SHOWN[:4], "casadi", "llvmlite", "qpsolvers", "daqp")
-"""Packages on which the digits of a run depend: those of `_SHOWN` that do not only draw, and more."""
 SOURCE = "source of biped-adrc"
 """Name under which the hash of this package's source stands among the versions."""
 
@@ -59,7 +57,8 @@ def numerical_versions() -> Mapping[str, str]:
     """
     source = source_hash(Path(__file__).parents[1])[:12]
     result = {"python": platform.python_version(), "machine": platform.machine(), SOURCE: source}
-    return result | packages(NUMERICAL)
+    # those packages of `_SHOWN` that do not only draw, and more
+    return result | packages((*_SHOWN[:4], "casadi", "llvmlite", "qpsolvers", "daqp"))
 
 
 def source_hash(root: Path) -> str:

@@ -48,9 +48,7 @@ class Disturbance(Part):
     array([-0.5, -0.5, -0.5, -0.5, -0.5])
     """
 
-    SUCH_AS = (
-        "TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3); a sum of them is a + b"
-    )
+    SUCH_AS = "TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3); a sum is a + b"
 
     @abstractmethod
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:

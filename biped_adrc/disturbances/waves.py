@@ -42,7 +42,7 @@ from biped_adrc.core.checks import NonNegativeFloat, NonNegativeInt, PositiveFlo
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import SETUP, derived
 from biped_adrc.core.types import Array
-from biped_adrc.disturbances.base import Windowed
+from biped_adrc.disturbances.base import Windowed, WindowedTorque
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ class TorqueStep(Windowed):
 
 
 @dataclass(frozen=True)
-class TorqueSine(Windowed):
+class TorqueSine(WindowedTorque):
     """A sinusoidal torque in its window, zero at onset.
 
     amplitude (n,) [N m]: on q1..qN. step: number of the single support, from 1; None: the window counts from
@@ -141,10 +141,9 @@ class TorqueSine(Windowed):
 
     frequency: PositiveFloat = 1.0
 
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        """zeta (n,) [N m] at s = t - onset after the window has opened."""
-        s = t - self.onset(t_start)
-        return self.amplitude * np.sin(2.0 * math.pi * self.frequency * s)
+    def profile(self, s: float) -> float:
+        """sin(2 pi f s), s [s] after the window has opened."""
+        return np.sin(2.0 * math.pi * self.frequency * s)
 
 
 @dataclass(frozen=True)

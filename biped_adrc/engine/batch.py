@@ -28,7 +28,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import Measurement, has_own_class
 from biped_adrc.core.checks import Checked, PositiveInt, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
-from biped_adrc.core.once import constant
+from biped_adrc.core.part import constant
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array
@@ -289,11 +289,9 @@ class Ready:
         """
         one, w = self.case, case.walker
         started = np.array_equal(one.q, case.q) and np.array_equal(one.v, case.v)
-        if not (started and _equal(one, case, "walker", "q", "v")):
-            return None
-        if not _equal(one.walker, w, "controller", "disturbance"):
-            return None
-        if (compiled := self.compiled.like(w)) is None:
+        same = started and _equal(one, case, "walker", "q", "v")
+        same = same and _equal(one.walker, w, "controller", "disturbance")
+        if not same or (compiled := self.compiled.like(w)) is None:
             return None
         s, at = flatten(w.law.initial_state(self.begin)), 2 * w.plant.n
         if not np.all(np.isfinite(s)):

@@ -8,28 +8,23 @@ code that are asked for at every instant, traced from `model.planar_robot`; kine
 stay Pinocchio's. `compiled_references` does the same for the references of a controller.
 """
 
-from __future__ import annotations
-
 import ctypes
-import math
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cached_property, lru_cache
-from itertools import accumulate
-from operator import methodcaller
+from functools import cached_property, partial
 from types import new_class
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.core.once import once
-from biped_adrc.core.part import content, with_content
-from biped_adrc.core.types import Array, of_kind
+from biped_adrc.core.part import content, once, with_content
+from biped_adrc.core.tree import Layout, flatten
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
-from biped_adrc.engine.generated import generated
+from biped_adrc.engine.generated import generated, on_symbols
 from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.program import push_code
@@ -39,28 +34,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 from biped_adrc.model.reduction import BodyTerms, Reduction
 
-if TYPE_CHECKING:
-    from biped_adrc.engine.equations import SymbolicFunction
-
-Shape = tuple[int, ...]
-"""Shape of an array."""
-
 FUNCTION = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """ctypes' type of f(K, inp, out), three addresses; it keeps Python's lock, whose release costs as much."""
-
-
-def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
-    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size); views, no copies."""
-    first = rows.shape[:-1]
-    pairs = zip(shapes, places_of(shapes), strict=True)
-    return [rows[..., at].reshape(first + shape) for shape, at in pairs]
-
-
-@lru_cache(maxsize=1024)
-def places_of(shapes: tuple[Shape, ...]) -> tuple[slice, ...]:
-    """The slices of a vector in which arrays of these shapes stand one after the other."""
-    ends = tuple(accumulate(map(math.prod, shapes)))
-    return tuple(map(slice, (0, *ends), ends))
 
 
 class Call:
@@ -121,35 +96,18 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
     its result. Any thread may call the function. Raises NotCompiled, also where the method raises at them.
     """
     with located(getattr(part, method)):
-        result = getattr(part, method)(*examples)
-    many, sizes = isinstance(result, tuple), tuple(map(np.shape, examples))
-    shapes = tuple(map(np.shape, result)) if many else (np.shape(result),)
-    inputs, outputs = (sum(map(math.prod, x)) for x in (sizes, shapes))
+        result = Layout.of(getattr(part, method)(*examples))
+    inputs = Layout.of(examples)
 
-    def traced() -> SymbolicFunction:
-        # imported here, since these bring CasADi in, which is needed only where something is traced
-        from biped_adrc.engine.equations import SymbolicFunction
-        from biped_adrc.engine.symbols import Vector, column, symbols_of
-        from biped_adrc.engine.tracer import Tracer, apply
-
-        # symbols: the part with symbols in place of its numbers
-        (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
-        # `sparse` of a robot: terms that this robot does not have are a plain 0 and vanish from the code
-        symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
-        law = methodcaller(method, *(inp.take(*size) for size in sizes))
-        out = apply(Tracer(), law, symbols)
-        return SymbolicFunction(K, inp.symbol, column(*(out if many else (out,))))
-
-    code = generated((method, sizes, structure(part)), {"method": traced})
-    called = Call(code, "method", np.array([*floats(part), 0.0]), inputs, outputs)
-    places, one_thread = places_of(sizes), threading.Lock()
+    traced = partial(on_symbols, "equations", "method_function", part, method, inputs)
+    code = generated((method, inputs, structure(part)), {"method": traced})
+    called = Call(code, "method", np.array([*floats(part), 0.0]), inputs.size, result.size)
+    one_thread = threading.Lock()
 
     def evaluated(*arguments: Array | float) -> Any:
         with one_thread:
-            for at, x in zip(places, arguments, strict=True):
-                called.inp[at] = x
-            parts = parts_of(called(), shapes)
-        return of_kind(type(result), parts) if many else parts[0]
+            called.inp[:] = flatten(arguments)
+            return result.tree(called())
 
     return evaluated
 

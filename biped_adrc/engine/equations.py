@@ -36,12 +36,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.protocols import ControlLaw, Mode
+from biped_adrc.closed_loop.protocols import ControlLaw, FootForces, Mode
 from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import tracked_point
 from biped_adrc.core.tree import Layout, chosen
-from biped_adrc.core.types import Array, Indices, T
+from biped_adrc.core.types import Array, T
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.not_compiled import Located, NotCompiled
@@ -81,17 +81,6 @@ class SymbolicLoop(NamedTuple):
         """Whether the controller's model is the plant; joint friction is in no model of a controller."""
         return self.numbers.model is None and not self.plant.friction
 
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,): whole numbers, and so a part of the
-        structure."""
-        return self.plant.swap
-
-    @property
-    def gain(self) -> Array:
-        """Relative errors of v+ (n,) [1], or empty."""
-        return self.numbers.impact_gain
-
     def layout_of(self, x: Array) -> Layout:
         """The layout of a state x, the same for all of them."""
         return self.layout
@@ -112,15 +101,13 @@ class SymbolicLoop(NamedTuple):
 
         fires: 1 at a tick at which the controller notices a touchdown, else 0.
         """
-        return self.trace(chosen)(fires, self.calls.jump(s, m, self.swap), s)
+        return self.trace(chosen)(fires, self.calls.jump(s, m, self.plant.swap), s)
 
     def checked(self, part: Any, method: str, before: Any, after: Any) -> Any:
         """The state `after` that a method of a part returned, of the layout of the state `before`."""
         return _alike(before, after, f"{type(part).__name__}.{method}")
 
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-    ) -> tuple[float, float]:
+    def foot_forces(self, t: float, q: Array, v: Array, tail: Tail, mode: Mode) -> FootForces:
         """Vertical forces of the ground on stance and swing foot [N]: inputs where the plant moves by
         itself."""
         if self.numbers.moves:
@@ -285,7 +272,7 @@ class Equations:
         inp, loop = Vector("inp", 2 + self.nx), self.loop()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         # `strike`: impact map, relabelling of the legs and the controller's jump
-        x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
+        x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t), loop.numbers.impact_gain)
         # lost: the least pivot, or -1 where a torque is beyond the bound
         return self.function(inp, x, loop.lost)
 
@@ -342,6 +329,18 @@ def matvec_function(k: int, p: int) -> SymbolicFunction:
     K."""
     M, E = Vector("M", k * k), Vector("E", k * p)
     return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
+
+
+def method_function(part: Any, method: str, inputs: Layout) -> SymbolicFunction:
+    """The function of arguments of this layout that a method of a part is; its result is an array or a tuple of
+    arrays. Raises NotCompiled for one that cannot be traced.
+    """
+    # symbols: the part with symbols in place of its numbers
+    (K, symbols), inp = symbols_of(part), Vector("inp", inputs.size)
+    # `sparse` of a robot: terms that this robot does not have are a plain 0 and vanish from the code
+    symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
+    out = apply(Tracer(), methodcaller(method, *inputs.tree(inp.take(inputs.size))), symbols)
+    return SymbolicFunction(K, inp.symbol, column(*(out if isinstance(out, tuple) else (out,))))
 
 
 def push_function(term: Disturbance, n: int) -> SymbolicFunction:

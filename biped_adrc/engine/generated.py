@@ -6,24 +6,30 @@ trace is to run its Python once on symbols, which gives the expression that is c
 """
 
 from collections.abc import Callable, Hashable, Mapping
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from biped_adrc.engine.machine import Code, fetch, store
+from biped_adrc.engine.machine import Code, from_disk
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.structure import lasting
 
 if TYPE_CHECKING:
     from biped_adrc.engine.equations import SymbolicFunction
 
-_Functions = Mapping[str, Callable[[], "SymbolicFunction"]]
+_Traced = Mapping[str, Callable[[], "SymbolicFunction"]]
 """Name of a function -> what is called to trace it where its code is neither in memory nor on disk."""
 _IN_MEMORY: dict[Hashable, Code | str] = {}
 """Structure and names of functions -> their code; a text where they cannot be compiled, the reason."""
 
 
-def generated(
-    key: Hashable, functions: _Functions, optimised: bool = False, lanes: int = 1
-) -> Code:
+def on_symbols(module: str, name: str, *arguments: object) -> Any:
+    """What the function `name` of a module of the engine returns; the import is here, as it brings CasADi in,
+    which is needed only where something is traced.
+    """
+    return getattr(import_module(f"biped_adrc.engine.{module}"), name)(*arguments)
+
+
+def generated(key: Hashable, functions: _Traced, optimised: bool = False, lanes: int = 1) -> Code:
     """The machine code of these functions; they are traced once per structure.
 
     - key: the structure of what they are made from; equal keys have to mean equal code.
@@ -35,10 +41,7 @@ def generated(
     """
 
     def text() -> str:
-        # imported here, since it imports CasADi, which is needed only where something is traced
-        from biped_adrc.engine.ir import module_text
-
-        return module_text({name: f() for name, f in functions.items()}, lanes)
+        return on_symbols("ir", "module_text", {x: f() for x, f in functions.items()}, lanes)
 
     return generated_text((key, *functions, lanes), tuple(functions), text, optimised)
 
@@ -51,22 +54,13 @@ def generated_text(
     code = _IN_MEMORY.get(key)
     if code is None:
         try:
-            code = Code(_text(key, write), names, optimised)
+            # from the disk, where another process has made a text of the same structure
+            name = lasting(key)  # empty for a structure with classes of the user's
+            text = from_disk(name, lambda: write().encode()).decode() if name else write()
+            code = Code(text, names, optimised)
         except NotCompiled as error:
             code = str(error)
         _IN_MEMORY[key] = code
     if isinstance(code, str):
         raise NotCompiled(code)
     return code
-
-
-def _text(key: Hashable, write: Callable[[], str]) -> str:
-    """The text that `write` makes; from the disk where another process has made one of the same structure."""
-    name_on_disk = lasting(key)  # empty for a structure with classes of the user's
-    stored = fetch(name_on_disk) if name_on_disk else None
-    if stored is not None:
-        return stored.decode()
-    result = write()
-    if name_on_disk:
-        store(name_on_disk, result.encode())
-    return result

@@ -75,9 +75,7 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
             if work[o[0]] == len(result):
                 result.append(one)
         else:
-            raise NotCompiled(
-                f"CasADi's operation {code} has no line of machine code; use NumPy's basic ones"
-            )
+            raise NotCompiled(f"CasADi's operation {code} is not compiled; use NumPy's basic ones")
     return result
 
 

@@ -7,7 +7,7 @@ sample, `engine.kernels.lanes` moves the walks.
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.core.types import Array
-from biped_adrc.engine.generated import generated_text
+from biped_adrc.engine.generated import generated_text, on_symbols
 from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import END, Ints, block_rows
@@ -81,16 +81,15 @@ class Lanes:
         more = int(compiled.plan["moving"]), int(compiled.plan["lags"]), lanes
         key, laws = ("lanes", program.key, *more), dict.fromkeys(("pushes", "look"), 0)
         names = ("slope", "step", *(["tick"] if program.numbers.held else []))
-        code = generated_text(key, names, lambda: _text("stretch", program.equations, *more))
+        text = partial(on_symbols, "stretch", "stretch_text", program.equations, *more)
+        code = generated_text(key, names, text).addresses
         # by the fields of one walk's functions in a run
-        laws |= zip(
-            ("flow", "events", "tick"), map(code.addresses.__getitem__, names), strict=False
-        )
+        laws |= zip(("flow", "events", "tick"), map(code.__getitem__, names), strict=False)
         if terms:
             n = program.numbers.plant.n
             push = "push", structure(terms), n, lanes
-            code = generated_text(push, ("push",), lambda: _text("push", terms, n, lanes))
-            laws["pushes"] = code.addresses["push"]
+            text = partial(on_symbols, "stretch", "push_text", terms, n, lanes)
+            laws["pushes"] = generated_text(push, ("push",), text).addresses["push"]
         if read:
             laws["look"] = program.reading(step_reading, lanes).addresses["reading"]
         return cls(lanes, laws)
@@ -119,14 +118,6 @@ class Lanes:
         codes = np.zeros_like(walks)
         kernels().side_by_side(team.run.address, walks.ctypes.data, len(runs), codes.ctypes.data)
         return [STATUS[code] for code in codes.tolist()]
-
-
-def _text(what: str, *arguments: Any) -> str:
-    """The text of a function of `engine.stretch`; the import is here, as it brings CasADi in."""
-    from biped_adrc.engine import stretch
-
-    text: str = getattr(stretch, f"{what}_text")(*arguments)
-    return text
 
 
 def aligned(size: int) -> Array:

@@ -1,7 +1,7 @@
 """Machine code of modules in LLVM's language, kept on disk with checksums.
 
 Last stage of the compiler that makes machine code of methods, such as a controller's. Object code is stored
-under the hash of the text and of what compiles it; other stages store texts in the same way (`fetch`, `store`).
+under the hash of the text and of what compiles it; other stages store texts in the same way (`from_disk`).
 A file is written under another name and then renamed, so several processes may make the same one; a damaged
 file is made again, and where nothing can be written code is made in memory each time.
 """
@@ -9,7 +9,7 @@ file is made again, and where nothing can be written code is made in memory each
 import hashlib
 import os
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -52,22 +52,32 @@ def load_or_compile(text: str, names: Sequence[str], optimised: bool = False) ->
     optimised: whether LLVM's passes run. One thread at a time does it, so no two compile the same module;
     another process may do so, and then writes the same file.
     """
-    key = hash_of(text, str(optimised))
+
+    def code() -> bytes:
+        host = _target()
+        return object_code(parsed(text, host), host, optimised)
+
     with LOCK:
-        code = fetch(key)
-        if code is None:
-            host = _target()
-            code = object_code(parsed(text, host), host, optimised)
-            store(key, code)
-        return loaded(code, names)
+        found = from_disk(hash_of(text, str(optimised)), code)
+        # the engine wants a module of its own, which is empty; the functions come with the object file
+        engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
+        engine.add_object_file(binding.ObjectFileRef.from_data(found))
+        engine.finalize_object()
+        # never freed: runs hold addresses of their functions
+        _ENGINES.append(engine)
+        return {name: int(engine.get_function_address(name)) for name in names}
 
 
 def hash_of(*made_from: str) -> str:
     """Hash of these texts, of this processor with its instructions, and of the version of LLVM, by which a file
     is named: 32 hexadecimal digits."""
-    host = binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
-    parts = (*made_from, *host, str(binding.llvm_version_info))
+    parts = (*made_from, *_host(), str(binding.llvm_version_info))
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
+
+
+def _host() -> tuple[str, str]:
+    """Name and instructions of this processor, in LLVM's words."""
+    return binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
 
 
 def _target() -> binding.TargetMachine:
@@ -76,12 +86,7 @@ def _target() -> binding.TargetMachine:
     """
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    return binding.Target.from_default_triple().create_target_machine(
-        cpu=binding.get_host_cpu_name(),
-        features=binding.get_host_cpu_features().flatten(),
-        opt=3,
-        jit=True,
-    )
+    return binding.Target.from_default_triple().create_target_machine(*_host(), opt=3, jit=True)
 
 
 def parsed(text: str, machine: binding.TargetMachine) -> binding.ModuleRef:
@@ -123,17 +128,6 @@ _ENGINES: list[object] = []
 """LLVM's engines, never freed: runs hold addresses of their functions."""
 
 
-def loaded(code: bytes, names: Sequence[str]) -> dict[str, int]:
-    """Load object code into memory and find the addresses of the functions `names`."""
-    # the engine wants a module of its own, which is empty; the functions come with the object file
-    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
-    engine.add_object_file(binding.ObjectFileRef.from_data(code))
-    engine.finalize_object()
-    # never freed: runs hold addresses of their functions
-    _ENGINES.append(engine)
-    return {name: int(engine.get_function_address(name)) for name in names}
-
-
 def _path(key: str) -> Path:
     """The file of what is stored under `key`.
 
@@ -148,24 +142,22 @@ def _path(key: str) -> Path:
     return folder / "code" / f"{key}.bin"
 
 
-def fetch(key: str) -> bytes | None:
-    """The object code or text stored on disk under `key`; None when it is not there or its checksum is wrong.
+def from_disk(key: str, make: Callable[[], bytes]) -> bytes:
+    """The object code or text stored on disk under `key`; where it is not there, or its checksum is wrong, what
+    make() gives, which is then stored, if that is possible.
 
     The checksum covers the key too, so a file under a wrong name is noticed.
     """
-    try:
+    with suppress(OSError):
         data = _path(key).read_bytes()
-    except OSError:
-        return None
-    # CHECK: bytes of the checksum at the beginning of the file
-    check, code = data[:CHECK], data[CHECK:]
-    return code if hashlib.sha256(key.encode() + code).digest() == check else None
-
-
-def store(key: str, code: bytes) -> None:
-    """Store object code or a text on disk under `key`, with a checksum; where that fails, nothing happens."""
+        # CHECK: bytes of the checksum at the beginning of the file
+        check, code = data[:CHECK], data[CHECK:]
+        if hashlib.sha256(key.encode() + code).digest() == check:
+            return code
+    code = make()
     with suppress(OSError, OutputError):
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
+    return code
 
 
 VARIABLE = "BIPED_ADRC_CACHE"

@@ -4,7 +4,6 @@ They arise where the compiler runs a law, a method of a controller or another pa
 numbers.
 """
 
-import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -44,14 +43,10 @@ def _place(error: Exception, f: Any) -> str:
     """The place where an error arose, as text such as PD.output (own.py:12, `x`): the innermost line of the
     user's; without one that of a method of this package, the compiler left out; else the name of f.
     """
-    frames = traceback.extract_tb(error.__traceback__)
-    codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
-    pairs = list(zip(codes, frames, strict=True))
-    package = [x for x in pairs if x[1].filename.startswith(checks.PACKAGE)]
-    methods = [
-        x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(_HERE)
-    ]
-    own = [x for x in pairs if checks.is_users(x[1].filename)] or methods or package
+    calls = checks.calls_of(error)
+    ours = [x for x in calls if x[1].filename.startswith(checks.PACKAGE)]
+    methods = [x for x in ours if "." in x[0].co_qualname and not x[1].filename.startswith(_HERE)]
+    own = [x for x in calls if checks.is_users(x[1].filename)] or methods or ours
     if not own:
         return str(getattr(f, "__qualname__", f))
     code, frame = own[-1]

@@ -21,18 +21,18 @@ from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop
-from biped_adrc.core.once import once
+from biped_adrc.core.part import once
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
-from biped_adrc.engine.generated import generated
+from biped_adrc.engine.generated import generated, on_symbols
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
 from biped_adrc.engine.machine import Code
@@ -66,10 +66,8 @@ class Program:
 
     @cached_property
     def equations(self) -> Equations:
-        """The functions on symbols; the import here, where something is traced, brings CasADi in."""
-        from biped_adrc.engine.equations import Equations
-
-        return Equations(self.layout, self.numbers)
+        """The functions on symbols."""
+        return on_symbols("equations", "Equations", self.layout, self.numbers)
 
     @property
     def nx(self) -> int:
@@ -98,6 +96,12 @@ class Program:
             name = type(self.numbers.controller).__name__
             raise NotCompiled(f"a parameter of {name} or of what is around it is NaN")
         return K
+
+    @cached_property
+    def first(self) -> int:
+        """Index in K of the controller's first number; K has the numbers in the order of the fields, those of
+        plant and model before."""
+        return len(floats(self.numbers[: self.numbers._fields.index("controller")]))
 
     @cached_property
     def key(self) -> Hashable:
@@ -134,7 +138,7 @@ class Program:
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
-            traced = partial(_on_symbols, "matvec_function", *sizes)
+            traced = partial(on_symbols, "equations", "matvec_function", *sizes)
             code = generated(sizes, {name: traced}, optimised=True)
         return code.addresses.get(name, 0)
 
@@ -149,15 +153,8 @@ def push_code(term: Disturbance, n: int) -> Code:
     # compiled loops get the table `switches`, and could not call a `switching_times` of the user's
     if type(term).switching_times is not Disturbance.switching_times:
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
-    traced = partial(_on_symbols, "push_function", term, n)
+    traced = partial(on_symbols, "equations", "push_function", term, n)
     return generated(("push", n, structure(term)), {"push": traced})
-
-
-def _on_symbols(name: str, *arguments: object) -> SymbolicFunction:
-    """What the function `name` of `engine.equations` returns; the import is here, as it brings CasADi in."""
-    from biped_adrc.engine import equations
-
-    return getattr(equations, name)(*arguments)
 
 
 def at_rest(layout: Layout) -> Layout:
@@ -185,8 +182,6 @@ class CompiledWalker:
     """Its functions, and the vector K of its numbers."""
     plan: CompiledRun
     """A run that has not begun: sizes, addresses, tables and settings; each run starts in a copy of it."""
-    label: str
-    """Name and step of the method of integration, for records."""
     still: _Still
     """What of it does not depend on the disturbance."""
 
@@ -200,7 +195,7 @@ class CompiledWalker:
         reference: Reference | None = None,
         in_python: bool = False,
         loaded: bool = True,
-    ) -> CompiledWalker:
+    ) -> Self:
         """Make the tables of a run that begins at t_first [s], for states of this layout
         (`ClosedLoop.layout_of`).
 
@@ -213,12 +208,10 @@ class CompiledWalker:
         """
         # all that does not depend on the disturbance, remembered from earlier calls
         still = _still(walker.undisturbed, method, layout, reference, in_python, loaded)
-        return cls._under(walker, still, t_first, method.label, loaded)
+        return cls._under(walker, still, t_first, loaded)
 
     @classmethod
-    def _under(
-        cls, walker: Walker, still: _Still, t_first: float, label: str, loaded: bool = True
-    ) -> CompiledWalker:
+    def _under(cls, walker: Walker, still: _Still, t_first: float, loaded: bool = True) -> Self:
         """Add the walker's disturbance to what is `still`; see `of`."""
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
@@ -236,27 +229,20 @@ class CompiledWalker:
         run = still.plan(tables)
         # pulled: whether a force from outside may act, besides torques
         run["t_first"], run["pulled"] = t_first, push.pulls
-        return cls(walker, still.program, run, label, still)
+        return cls(walker, still.program, run, still)
 
     @cached_property
     def terms(self) -> tuple[Disturbance, ...]:
         """The terms of its disturbance."""
         return (self.walker.disturbance or NO_PUSH).terms
 
-    @cached_property
-    def _first(self) -> int:
-        """Index in K of the controller's first number; K has the numbers in the order of the fields, those of
-        plant and model before."""
-        numbers = self.program.numbers
-        return len(floats(numbers[: numbers._fields.index("controller")]))
-
-    def like(self, walker: Walker) -> CompiledWalker | None:
+    def like(self, walker: Walker) -> Self | None:
         """The compiled form of a walker that differs from this one in its disturbance and in numbers of its
         controller alone; None where `of` has to look: its controller has another structure or NaN, or other
         numbers than its own depend on it.
         """
         if walker.controller is self.walker.controller:
-            return self._under(walker, self.still, self.plan["t_first"], self.label)
+            return self._under(walker, self.still, self.plan["t_first"])
         program, law = self.program, walker.law
         old, numbers = program.numbers, program.numbers._replace(controller=law)
         own, K = np.array(floats_inside(law)), program.K.copy()
@@ -264,11 +250,11 @@ class CompiledWalker:
         entangled = isinstance(law, OuterLoop) or old.split is not None
         if entangled or not alike(law, old.controller) or np.any(np.isnan(own)):
             return None
-        K[self._first : self._first + len(own)] = own
+        K[program.first : program.first + len(own)] = own
         other = replace(program, numbers=numbers)
         vars(other)["key"] = program.key  # computed already, and equal for laws that are alike
         still = self.still._replace(program=other, tables={**self.still.tables, "K": K})
-        return self._under(walker, still, self.plan["t_first"], self.label)
+        return self._under(walker, still, self.plan["t_first"])
 
 
 class _Still(NamedTuple):
@@ -276,6 +262,8 @@ class _Still(NamedTuple):
     it."""
 
     program: Program
+    label: str
+    """Name and step of the method of integration, for records."""
     tables: dict[str, Array]
     """Vectors of `kernels.record.Run` by name, without those of the disturbance."""
     fields: dict[str, float]
@@ -308,9 +296,8 @@ def _still(
     in_python: whether sample instants and impacts run in Python. loaded: whether functions are in memory.
     """
     if not isinstance(method, RK4 | Exponential):
-        raise NotCompiled(
-            f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
-        )
+        name = type(method).__name__
+        raise NotCompiled(f"method {name} has no compiled form, as RK4 and Exponential have")
     etd = isinstance(method, Exponential)
     split = walker.split_form() if etd else None
     if etd and split is None:
@@ -349,4 +336,4 @@ def _still(
         fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
     has = program.address if loaded else program.machine.names.count
     fields |= {name: has(name) for name in FUNCTIONS}
-    return _Still(program, tables, fields, {})  # {}: no plan has been made yet
+    return _Still(program, method.label, tables, fields, {})  # {}: no plan has been made yet

@@ -167,7 +167,7 @@ def simulate_compiled(
         status = Status.COMPLETED if status is Status.TIME_OUT else status
         return FlownArc(arc, status, detail, outcome)
 
-    walked = run_arcs(flown, x0, mode, compiled.label, options)
+    walked = run_arcs(flown, x0, mode, compiled.still.label, options)
     return replace(walked, settings={**walked.settings, "engine": COMPILED})
 
 

@@ -24,13 +24,13 @@ from typing import Any, Self, cast
 import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import step_reading
-from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.around import AddedTorque
 from biped_adrc.core.checks import handing_out
 from biped_adrc.core.errors import RaisedError
-from biped_adrc.core.once import once
+from biped_adrc.core.part import once
+from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
@@ -85,9 +85,8 @@ def torque_place(program: Program) -> int:
 
     It is the last field of the controller, and so has the last p of the controller's numbers.
     """
-    # K ends with one unused number, and before it stand the numbers of the fields behind the controller
-    behind = program.numbers[program.numbers._fields.index("controller") + 1 :]
-    return len(program.K) - 1 - len(floats(behind)) - program.numbers.plant.p
+    numbers = program.numbers
+    return program.first + len(floats(numbers.controller)) - numbers.plant.p
 
 
 @dataclass(frozen=True)
@@ -142,10 +141,6 @@ class CompiledWalk:
     def copy(self) -> Self:
         """The same walk in memory of its own."""
         return replace(self, run=self.run.copy())
-
-    def law(self, view: Reading) -> int:
-        """Address of the machine code of the `Reading` `view`; the kernel `looks` calls it at a state."""
-        return self.compiled.program.reading(view).addresses["reading"]
 
 
 @dataclass(frozen=True)
@@ -258,8 +253,7 @@ def python_row(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference)
     Tracking errors in it are relative to the reference `curve`, whatever the controller tracks.
     """
     # the reference of a `Reading` is a function of the controller's state s, not used here, and measurement m
-    result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
-    return np.concatenate([np.ravel(part) for part in result])
+    return flatten(view(*walk.at, lambda s, m: curve(m.t, m.q, m.v)))
 
 
 class SampledWalks:
@@ -383,8 +377,9 @@ class SampledWalks:
         return result.copy()
 
     def _law(self, i: int, view: Reading) -> int:
-        """Address of the machine code of the function `view` for walk i; 0 where machine code does not move
-        it.
+        """Address of the machine code of the function `view` for walk i, which the kernel `looks` calls; 0
+        where machine code does not move the walk.
         """
-        walk = self.all[i]
-        return walk.law(view) if isinstance(walk, CompiledWalk) else 0
+        if not isinstance(walk := self.all[i], CompiledWalk):
+            return 0
+        return walk.compiled.program.reading(view).addresses["reading"]

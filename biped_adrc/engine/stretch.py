@@ -15,7 +15,7 @@ tick(K, from, to) reads a block and writes to another one; slope(K, block, _) an
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from functools import partial
 
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import Equations, SymbolicFunction, push_function
@@ -30,38 +30,22 @@ def stretch_text(equations: Equations, moving: int, lags: int, lanes: int) -> st
 
     moving: how many numbers of x flow. lags: index in x of the first torque of lagging motors, 0 without.
     """
-    plant, flow = equations.numbers.plant, equations.flow()
-    sizes = _Sizes(plant.n, plant.p, equations.nx, moving, lags)
-    parts = {
-        **(
-            {"tick": _tick(_Block(sizes, lanes), equations.tick())}
-            if equations.numbers.held
-            else {}
-        ),
-        "slope": _slope(_Block(sizes, lanes), flow),
-        "step": _step(_Block(sizes, lanes), flow, equations.events()),
-    }
+    block, flow = partial(_Block, equations, moving, lags, lanes), equations.flow()
+    parts = {"slope": _slope(block(), flow), "step": _step(block(), flow, equations.events())}
+    if equations.numbers.held:
+        parts["tick"] = _tick(block(), equations.tick())
     texts = (defined(name, [*x.lines, "ret void"]) for name, x in parts.items())
     return "\n".join([declarations(lanes), *texts])
 
 
-class _Sizes(NamedTuple):
-    """Coordinates, motors, numbers in x, how many of them flow, and the first lagging torque."""
-
-    n: int
-    p: int
-    nx: int
-    moving: int
-    lags: int
-
-
 class _Block(Listing):
-    """Listing of a function of blocks."""
+    """Listing of a function of blocks, for walkers of these equations; moving, lags: as in `stretch_text`."""
 
-    def __init__(self, sizes: _Sizes, lanes: int):
+    def __init__(self, equations: Equations, moving: int, lags: int, lanes: int):
         super().__init__("v", lanes)
-        self.sizes, self.pushes, self.good = sizes, 0, list[str]()
-        self.rows: list[int] = at.block_rows(sizes.n, sizes.nx).tolist()
+        plant, self.nx, self.moving, self.lags = equations.numbers.plant, equations.nx, moving, lags
+        self.n, self.p, self.pushes, self.good = plant.n, plant.p, 0, list[str]()
+        self.rows: list[int] = at.block_rows(self.n, self.nx).tolist()
         self.t, self.step, self.start = (self.row(i) for i in range(3))
         # the two cells behind the rows: addresses of the compiled disturbance and of its numbers
         for k, name in enumerate(("push", "numbers")):
@@ -85,7 +69,7 @@ class _Block(Listing):
         """Append the disturbance where there is one, at what stands in the block from row `first` on; it is
         stored in a part of a block, and returned.
         """
-        k, size = self.pushes, self.sizes.n + OUTSIDE
+        k, size = self.pushes, self.n + OUTSIDE
         self.pushes += 1
         result, inputs = self.at(block, self.rows[into]), self.at("%inp", first)
         self.lines += [
@@ -99,12 +83,11 @@ class _Block(Listing):
 
     def flow(self, function: SymbolicFunction, t: str, x: Sequence[str]) -> list[str]:
         """Append the slope at (t, x), where the pivot has to be positive."""
-        s = self.sizes
-        self.store_all("%inp", [t, self.step, self.start, *x[: 2 * s.n]], self.rows[at.STAGE])
+        self.store_all("%inp", [t, self.step, self.start, *x[: 2 * self.n]], self.rows[at.STAGE])
         load = self.load_at(self.rows[at.STAGE], "%inp", at.STAGE_LOAD)
         out = self.call(function, t, self.step, self.start, *x, *load)
-        self.positive(out[s.nx])
-        return out[: s.moving]
+        self.positive(out[self.nx])
+        return out[: self.moving]
 
     def positive(self, *values: str) -> None:
         """Ask that these numbers are above 0."""
@@ -133,20 +116,18 @@ class _Block(Listing):
         """Append the torques of lagging motors in `out`, as `operations.relax` does; weight: its place in the
         block.
         """
-        lags, p = self.sizes.lags, self.sizes.p
-        if lags > 0:
+        if self.lags > 0:
             factor = self.row(self.rows[at.WEIGHTS] + weight)
-            for i in range(p):
-                aim = x[len(x) - p + i]
-                off = self.new(f"fsub double {x[lags + i]}, {aim}")
+            for i, aim in enumerate(x[len(x) - self.p :], self.lags):
+                off = self.new(f"fsub double {x[i]}, {aim}")
                 rest = self.new(f"fmul double {factor}, {off}")
-                out[lags + i] = self.new(f"fadd double {aim}, {rest}")
+                out[i] = self.new(f"fadd double {aim}, {rest}")
         return out
 
 
 def _tick(b: _Block, tick: SymbolicFunction) -> _Block:
     """Write the lines of a sample instant."""
-    n, nx = b.sizes.n, b.sizes.nx
+    n, nx = b.n, b.nx
     load = b.load_at(0, "%out", at.LOAD)
     out = b.call(tick, b.t, b.step, b.start, *b.part(at.X, nx), *load)
     x, slope = out[:nx], [*out[n : 2 * n], *out[nx + 1 :]]
@@ -163,20 +144,20 @@ def _tick(b: _Block, tick: SymbolicFunction) -> _Block:
 
 def _slope(b: _Block, flow: SymbolicFunction) -> _Block:
     """Write the lines of the slope at t, and of the disturbance there."""
-    limit, x = b.row(b.rows[at.LIMIT]), b.part(at.X, b.sizes.nx)
+    limit, x = b.row(b.rows[at.LIMIT]), b.part(at.X, b.nx)
     now = b.new(f"call double @llvm.minimum.f64(double {b.t}, double {limit})")
     slope = b.flow(flow, now, x)
     b.finite(slope)
     b.store_all("%inp", slope, b.rows[at.SLOPE])
-    b.store_all("%inp", b.part(at.STAGE_LOAD, b.sizes.n), b.rows[at.LOAD])
+    b.store_all("%inp", b.part(at.STAGE_LOAD, b.n), b.rows[at.LOAD])
     b.mark("%inp")
     return b
 
 
 def _step(b: _Block, flow: SymbolicFunction, events: SymbolicFunction) -> _Block:
     """Write the lines of a step of RK4 from t to t1, and of the event functions at its end."""
-    s, new = b.sizes, b.new
-    x, t1, limit = b.part(at.X, s.nx), b.row(b.rows[at.T1]), b.row(b.rows[at.LIMIT])
+    n, new = b.n, b.new
+    x, t1, limit = b.part(at.X, b.nx), b.row(b.rows[at.T1]), b.row(b.rows[at.LIMIT])
 
     def until(part: str) -> str:
         later = new(f"fadd double {b.t}, {part}")
@@ -184,11 +165,11 @@ def _step(b: _Block, flow: SymbolicFunction, events: SymbolicFunction) -> _Block
 
     h = new(f"fsub double {t1}, {b.t}")
     half = new(f"fmul double 0.5, {h}")
-    if s.lags > 0:
+    if b.lags > 0:
         now = new(f"call double @llvm.minimum.f64(double {b.t}, double {limit})")
         k1 = b.flow(flow, now, b.relaxed(x, 0, list(x)))
     else:
-        k1 = b.part(at.SLOPE, s.moving)
+        k1 = b.part(at.SLOPE, b.moving)
     k2 = b.flow(flow, until(half), b.relaxed(x, 1, b.moved(x, half, k1)))
     k3 = b.flow(flow, until(half), b.relaxed(x, 1, b.moved(x, half, k2)))
     k4 = b.flow(flow, until(h), b.relaxed(x, 2, b.moved(x, h, k3)))
@@ -197,19 +178,19 @@ def _step(b: _Block, flow: SymbolicFunction, events: SymbolicFunction) -> _Block
         twice = new(f"fmul double 2.0, {new(f'fadd double {c}, {d}')}")
         slopes.append(new(f"fadd double {new(f'fadd double {a}, {twice}')}, {e}"))
     end = b.relaxed(x, 3, b.moved(x, new(f"fdiv double {h}, 6.0"), slopes))
-    found = b.call(events, t1, b.start, b.row(b.rows[at.DROP]), *end[: s.n])[:3]
+    found = b.call(events, t1, b.start, b.row(b.rows[at.DROP]), *end[:n])[:3]
     # each of these is false for NaN; bounds of q, then of v
-    b.finite(end[2 * s.n : s.moving])
+    b.finite(end[2 * n : b.moving])
     # an event function falls through zero nowhere: it is above zero, or was not and stays so
     for w, before in zip(found, b.part(at.VALUES, 3), strict=True):
         low = (new(f"fcmp ole double {x}, 0.0") for x in (w, before))
         stays = new("and i1 " + ", ".join(low))
         b.good.append(new(f"or i1 {new(f'fcmp ogt double {w}, 0.0')}, {stays}"))
-    bounds = [b.row(b.rows[at.FARTHEST])] * s.n + b.part(at.FASTEST, s.n)
+    bounds = [b.row(b.rows[at.FARTHEST])] * n + b.part(at.FASTEST, n)
     for a, bound in zip(end, bounds, strict=False):
         size = new(f"call double @llvm.fabs.f64(double {a})")
         b.good.append(new(f"fcmp ole double {size}, {bound}"))
-    b.store_all("%inp", end[: s.moving], b.rows[at.X])
+    b.store_all("%inp", end[: b.moving], b.rows[at.X])
     b.store_all("%inp", found, b.rows[at.VALUES])
     b.mark("%inp")
     return b

@@ -25,8 +25,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.core.checks import LIBRARIES, PACKAGE
-from biped_adrc.core.once import once
-from biped_adrc.core.part import Setup, content, is_part
+from biped_adrc.core.part import Setup, content, is_part, once
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.versions import numerical_versions
 from biped_adrc.engine.machine import hash_of
@@ -65,8 +64,7 @@ _floats = once(floats_inside)
 def paths(tree: object) -> list[str]:
     """Name of each number in `floats`, in the same order: field names and indices, such as
     k.tracking.K_p[0]."""
-    places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
-    return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
+    return [place for name, x in leaves(tree) for place in Layout.of(x).names(name)]
 
 
 def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:

@@ -9,8 +9,6 @@ In the state x = (q, q', s, tail) s is the controller's state, and the tail has 
 motors, the torque last.
 """
 
-from __future__ import annotations
-
 import ctypes
 import math
 import sys
@@ -27,9 +25,9 @@ from biped_adrc.closed_loop.instant_signals import controller_inputs
 from biped_adrc.closed_loop.semantics import State
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.outer_loop import tracked_point
-from biped_adrc.core.tree import flatten
+from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.calls import FUNCTION, CompiledReference, Shape, parts_of
+from biped_adrc.engine.calls import FUNCTION, CompiledReference
 from biped_adrc.engine.program import CompiledWalker, Program
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import Reduction
@@ -79,7 +77,7 @@ class PythonTicks:
         """
         before = sys.unraisablehook
 
-        def keep(lost: sys.UnraisableHookArgs) -> None:
+        def keep(lost: "sys.UnraisableHookArgs") -> None:
             if isinstance(lost.exc_value, KeyboardInterrupt):
                 self.error = lost.exc_value
             else:
@@ -135,7 +133,7 @@ class PythonTicks:
         example = controller_inputs(walker, 0.0, np.zeros(nx), Mode(), tracked)
         self.code, self.K = program.reading(controller_inputs), program.K
         function = FUNCTION(self.code.addresses["reading"])
-        rows = input_rows(tuple(map(np.shape, example)))
+        rows = input_rows(Layout.of(example))
         # body: whether the controller reads the terms of the whole robot; end: where the torque begins in x
         body, end, K = walker.law.needs_body, nx - walker.plant.p, self.K.ctypes.data
 
@@ -160,16 +158,16 @@ class PythonTicks:
         return tick
 
 
-def input_rows(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ...]]]:
+def input_rows(layout: Layout) -> Iterator[tuple[int, tuple[Array, ...]]]:
     """Yield memory for what machine code computes at each sample instant: an address, and read-only arrays of
-    these shapes that begin there, one after the other.
+    this layout that begin there, one after the other.
 
     No memory is given out twice, since a controller may keep its inputs. Blocks of rows are allocated at once.
     """
     while True:
         # BLOCK sample instants share one array
-        block = np.zeros((BLOCK, sum(map(math.prod, shapes))))
+        block = np.zeros((BLOCK, layout.size))
         block.setflags(write=False)
-        parts = zip(*parts_of(block, shapes), strict=True)
+        parts = zip(*layout.tree(block), strict=True)
         starts = block.ctypes.data + block.strides[0] * np.arange(BLOCK)
         yield from zip(starts.tolist(), parts, strict=True)

@@ -27,20 +27,10 @@ from numpy.typing import NDArray
 from biped_adrc.core import checks, linear
 from biped_adrc.core.part import Part, content, derived, is_part, with_content
 from biped_adrc.core.types import T, frozen, of_kind
+from biped_adrc.engine import symbols
 from biped_adrc.engine.not_compiled import Located, NotCompiled, located
 from biped_adrc.engine.structure import HIDDEN, is_library
-from biped_adrc.engine.symbols import (
-    TWINS,
-    Hidden,
-    Scalar,
-    SymbolicSolver,
-    elementwise,
-    function_of,
-    maximum,
-    minimum,
-    solve_positive,
-    where,
-)
+from biped_adrc.engine.symbols import Scalar, elementwise, maximum, minimum
 
 
 def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
@@ -98,9 +88,9 @@ class Tracer:
     def __init__(self) -> None:
         """Make the table of replacements for functions of NumPy, math and `linear`."""
         # Hidden: stands for what has no symbols, and raises NotCompiled where a law uses it
-        self.solver, random = SymbolicSolver(), Hidden("random numbers")
+        self.solver, random = symbols.SymbolicSolver(), symbols.Hidden("random numbers")
         # TWINS: NumPy's name of a function of one number -> CasADi's; here -> the function of one symbol
-        scalars = {name: function_of(theirs) for name, theirs in TWINS.items()}
+        scalars = {name: symbols.function_of(x) for name, x in symbols.TWINS.items()}
         # arrays have dtype object, since no other array can hold symbols
         numpy = {
             **{name: elementwise(function) for name, function in scalars.items()},
@@ -114,7 +104,7 @@ class Tracer:
             "minimum": elementwise(minimum),
             "maximum": elementwise(maximum),
             "clip": elementwise(lambda x, low, high: minimum(maximum(x, low), high)),
-            "where": elementwise(where),
+            "where": symbols.wheres,
             "float64": Float,
             "random": random,
         }
@@ -126,7 +116,7 @@ class Tracer:
             *((getattr(math, name), f) for name, f in scalars.items() if hasattr(math, name)),
             (np.linalg.solve, self.solver),
             (linear.solve, self.solver),
-            (linear.solve_positive, solve_positive),
+            (linear.solve_positive, symbols.solve_positive),
             # symbols have no values that could be checked, so checks return what they get
             (checks.returned, lambda found, *_, **__: found),
             (checks.point_returned, lambda found, *_: found),
@@ -189,7 +179,7 @@ class Tracer:
             return Unchangeable(inside) if type(value) is list else of_kind(type(value), inside)
         # HIDDEN: classes of what is neither number nor structure
         if isinstance(value, HIDDEN):
-            return Hidden(f"a {type(value).__name__}")
+            return symbols.Hidden(f"a {type(value).__name__}")
         if type(value) is dict:
             return types.MappingProxyType({k: self.on_symbols(x) for k, x in value.items()})
         if isinstance(value, np.ndarray):

@@ -51,9 +51,8 @@ class Sensor(Checked):
 
         This base raises InputError: a subclass writes the method, or `sampled` returns a sensor that has it.
         """
-        raise InputError(
-            f"{type(self).__name__} has no reading(w, q, v); write it, or take sampled(n, p, period)"
-        )
+        name = type(self).__name__
+        raise InputError(f"{name} has no reading(w, q, v); write it, or take sampled(n, p, period)")
 
     def sampled(self, n: int, p: int, period: float) -> Sensor:
         """The sensor that a walk runs: for n coordinates, p of them with motors, ticks every `period` [s]."""

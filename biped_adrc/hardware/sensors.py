@@ -51,7 +51,6 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sensing import Sensor
 
-VELOCITIES = ("differences", "measured", "gyro")
 CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < math.inf)]
 
 
@@ -79,7 +78,7 @@ class Sensors(Shown, Sensor):
     noise: NonNegativeFloat = 0.0
     pitch_noise: NonNegativeFloat = 0.0
     rate_noise: NonNegativeFloat = 0.0
-    velocity: Annotated[str, one_of(VELOCITIES)] = "differences"
+    velocity: Annotated[str, one_of(("differences", "measured", "gyro"))] = "differences"
     filter_time: NonNegativeFloat = 0.0
     seed: NonNegativeInt = 0
     angle_filter: NonNegativeFloat = 0.0

@@ -146,9 +146,6 @@ class _Load(NamedTuple):
     """Time from which it is detected [s]."""
 
 
-ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
-
-
 @dataclass(frozen=True)
 class FaultyTouchdown(Shown, Touchdown):
     """A detector that knows the true touchdown and fires `late` [s] after it, with
@@ -162,7 +159,7 @@ class FaultyTouchdown(Shown, Touchdown):
     """
 
     late: NonNegativeFloat = 0.0
-    missed: ProbabilityFloat = 0.0
+    missed: Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)] = 0.0
     false_at: Annotated[tuple[int, float], STEP_AND_TIME] | None = setup(None)
     seed: NonNegativeInt = setup(0)
 

@@ -122,11 +122,8 @@ class Adaptive(Checked, Solver):
             nonlocal last
             try:
                 dx, last = f(t, x), None
-            except (
-                NotFiniteError,
-                RanAwayError,
-                SingularError,
-            ) as error:  # a step too long, which is rejected
+            # a step too long, which is rejected
+            except (NotFiniteError, RanAwayError, SingularError) as error:
                 dx, last = np.full_like(x, np.nan), last or error
             return dx
 

@@ -14,26 +14,21 @@ compiled.
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from biped_adrc.core.errors import NotFiniteError
-from biped_adrc.core.types import Array
-from biped_adrc.hybrid import constants
+from biped_adrc.core.types import Array, T
+from biped_adrc.hybrid import constants, integrators
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
-from biped_adrc.hybrid.integrators import RK4 as ClassicalRungeKutta
-from biped_adrc.hybrid.integrators import OneStepMethod, Solver, Step
 from biped_adrc.hybrid.system import AnyMode, Clock, FoundEvent, HybridSystem
 from biped_adrc.hybrid.trajectory import Event, Recorder
 
-_Function = TypeVar("_Function", bound=Callable[..., object])
 
-
-def inner(function: _Function) -> _Function:
+def inner(function: T) -> T:
     """Return the function itself; the compiled engine's decorator of this name inlines it into its callers."""
     return function
 
@@ -110,12 +105,12 @@ class Run:
         def __getattr__(self, name: str) -> Array:
             """One of the work arrays (nx,) of constants.X_ROWS and Y_ROWS."""
 
-    step: Step
+    step: integrators.Step
 
     def __init__(
         self,
         calendar: Calendar,
-        method: OneStepMethod,
+        method: integrators.OneStepMethod,
         record: Recorder,
         t: float,
         x: Array,
@@ -150,10 +145,10 @@ class Run:
             watch(self, fired.t, fired.x_minus, self.before)
         self.kind, self.h, self.lags, self.lag_speed = constants.SOLVER, math.inf, 0, 0.0
         # nan: no time, so that the first call of `solve` starts the solver
-        self.t_next, self.steps = math.nan, iter(tuple[Step, ...]())
+        self.t_next, self.steps = math.nan, iter(tuple[integrators.Step, ...]())
         self.nN = self.n_slow = self.levels = 0
         self.t_b = self.t_far = self.f_far = 0.0
-        if isinstance(method, ClassicalRungeKutta):
+        if isinstance(method, integrators.RK4):
             self.kind, self.h, relaxing = constants.RK4, method.h, self.system.relaxing()
             if relaxing is not None:
                 # lags 1: the march asks only whether it is above 0
@@ -363,7 +358,7 @@ def solve(r: Run, t_next: float) -> float:
     the bounds.
     """
     if r.t_next != t_next:
-        assert isinstance(r.method, Solver)
+        assert isinstance(r.method, integrators.Solver)
 
         def f(t: float, x: Array) -> Array:
             return r.system.flow(min(t, r.limit), x, r.mode)

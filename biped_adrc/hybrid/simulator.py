@@ -16,14 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.core import errors
 from biped_adrc.core.checks import handing_out, sentence_of
-from biped_adrc.core.errors import (
-    InputError,
-    NotFiniteError,
-    RanAwayError,
-    SingularError,
-    check_count,
-)
+from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.constants import CROWD, EVENT_LIMIT, STEP_FAILED, TOGETHER
 from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
@@ -92,6 +87,11 @@ class FlownArc(NamedTuple):
     """None where the run ends with this arc."""
 
 
+Flight = Callable[[float, Array, AnyMode, Event | None], FlownArc]
+"""fly(t, x, mode, event that ended the arc before) integrates one arc. It also finds (x+, mode+) after its
+event, from which the next arc starts."""
+
+
 def simulate(
     system: HybridSystem, x0: Array, mode: AnyMode, method: OneStepMethod, **options: Any
 ) -> Trajectory:
@@ -125,18 +125,10 @@ def run(
     return run_arcs(partial(flow_arc, system, method, options), x0, mode, label, options)
 
 
-def run_arcs(
-    fly: Callable[[float, Array, AnyMode, Event | None], FlownArc],
-    x0: Array,
-    mode: AnyMode,
-    label: str,
-    options: RunOptions,
-) -> Trajectory:
+def run_arcs(fly: Flight, x0: Array, mode: AnyMode, label: str, options: RunOptions) -> Trajectory:
     """Run from x0 (nx,) in `mode`, arc after arc, until an end of `options` or a failure.
 
-    fly(t, x, mode, event that ended the arc before) integrates one arc. It also finds (x+, mode+) after its
-    event, from which the next arc starts; events are counted here. label: name of the method, for the
-    trajectory's settings.
+    fly: integrates each arc; events are counted here. label: name of the method, for the trajectory's settings.
     """
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)
@@ -190,9 +182,9 @@ def finite_part(flown: FlownArc) -> FlownArc:
 
 
 FAILURES: Mapping[Status, type[Exception]] = {
-    Status.NOT_FINITE: NotFiniteError,
-    Status.RAN_AWAY: RanAwayError,
-    Status.SINGULAR: SingularError,
+    Status.NOT_FINITE: errors.NotFiniteError,
+    Status.RAN_AWAY: errors.RanAwayError,
+    Status.SINGULAR: errors.SingularError,
     Status.STEP_FAILED: StepFailed,
 }
 """The errors that end a run with a status in place of being raised."""

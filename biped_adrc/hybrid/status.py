@@ -19,10 +19,7 @@ class Status(Enum):
     """All events or all the time asked for; the only status that is `ok`."""
     TIME_OUT = "the time ended before the number of events asked for; give a larger t_end"
     """t_end came before the number of events asked for."""
-    FELL = (
-        "the robot fell; start nearer to the gait, push less, raise the torque limit or change the "
-        "controller"
-    )
+    FELL = "the robot fell; start nearer the gait, push less, raise the torque limit or change the controller"
     """The hip came lower than the walker's limit."""
     STALLED = (
         "the swing foot did not strike within the longest step allowed; the robot stands or falls "
@@ -48,10 +45,7 @@ class Status(Enum):
     """An angle, a rate or a torque passed the walker's bounds; the last state within them is kept."""
     RAISED = "a class of your own raised an exception"
     """An exception in a class of the user's, or an array of another shape from it, in the middle of a run."""
-    INFEASIBLE = (
-        "the ground or the motors could not have carried this step; push less, walk slower, or change the gait "
-        "or the controller"
-    )
+    INFEASIBLE = "ground or motors could not carry this step; push less, walk slower, change gait or controller"
     """A walking step broke a limit of ground or motors (`analysis.feasibility`), or the stance foot of a plant
     with soft contact left the ground."""
 

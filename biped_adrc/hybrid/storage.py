@@ -64,9 +64,8 @@ def save(
     try:
         text = json.dumps(meta, indent=2)
     except (TypeError, ValueError) as error:
-        raise InputError(
-            f"run '{path}': {error}; expected settings of numbers, text, lists and mappings"
-        ) from error
+        why = f"{error}; expected settings of numbers, text, lists and mappings"
+        raise InputError(f"run '{path}': {why}") from error
     arrays: dict[str, Any] = {"meta": np.array(text)}
     arrays |= {f"{BESIDE}{name}": np.asarray(x) for name, x in (beside_it or {}).items()}
     for i, arc in enumerate(trajectory.arcs):

@@ -139,10 +139,8 @@ class Trajectory(Shown):
 
     def __repr__(self) -> str:
         first, nodes = self.arcs[0], sum(len(arc.t) for arc in self.arcs)
-        return (
-            f"Trajectory({self.status.name}, {self.t_start:.4g} to {self.t_end:.4g} s: {len(self.arcs)} arcs, "
-            f"{nodes} nodes of {first.x.shape[1]} numbers)"
-        )
+        time = f"{self.t_start:.4g} to {self.t_end:.4g} s: {len(self.arcs)} arcs, {nodes} nodes"
+        return f"Trajectory({self.status.name}, {time} of {first.x.shape[1]} numbers)"
 
     @property
     def t_start(self) -> float:

@@ -83,7 +83,7 @@ class Biped(Shown):
     friction: bool = False
     """Whether `acceleration` includes the joint friction of the record."""
 
-    # says to `core.once` that nothing in a Biped changes, so results of it may be kept
+    # says to `core.part.once` that nothing in a Biped changes, so results of it may be kept
     _constant = True
 
     def __repr__(self) -> str:

@@ -51,8 +51,7 @@ import numpy as np
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.linear import solve_positive
-from biped_adrc.core.once import once
-from biped_adrc.core.part import derived, with_fields
+from biped_adrc.core.part import derived, once, with_fields
 from biped_adrc.core.types import Array, Flags, Indices
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.contact import Impact
@@ -116,7 +115,7 @@ class PlanarRobot:
     """Relabelling of the motors (p,): new motor i is entry swap[i] of (q_b, -q_b)."""
     friction: tuple[Array, Array] | tuple[()] = ()
     """Viscous [N m s] and static [N m] joint friction, each (n,), or empty for none."""
-    # says to `core.once` that nothing here changes, as nobody else has these arrays
+    # says to `core.part.once` that nothing here changes, as nobody else has these arrays
     _constant = True
 
     @classmethod

@@ -37,8 +37,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_count, check_positive, check_whole
-from biped_adrc.core.once import once
-from biped_adrc.core.part import Part
+from biped_adrc.core.part import Part, once
 from biped_adrc.core.shown import shown
 from biped_adrc.core.types import Array, Indices, relabelled
 

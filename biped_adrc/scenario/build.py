@@ -26,7 +26,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Controller, Passive
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.once import Memory, constant
+from biped_adrc.core.part import Memory, constant
 from biped_adrc.core.registry import construct, find, part_of_user, takes
 from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen
@@ -51,8 +51,8 @@ from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
 """Name of a walker's own plant: the stance foot is pinned, impacts are plastic and take no time."""
-OF_GROUND = ("friction", "time_constant", "damping_ratio")
-"""Values of the record of the ground that soft ground takes."""
+# walks of a study share these, so that they are compared by identity
+_clock, _motors = lru_cache(maxsize=64)(SampledTime), lru_cache(maxsize=64)(Motors)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,9 +152,7 @@ class RobotAndGait:
     def walked(self) -> Gait:
         """The gait of a robot with motors. Raises InputError for a robot without motors, which has none."""
         if self.gait is None:
-            raise InputError(
-                f"robot '{self.biped.description.name}' has 0 motors and walks no gait"
-            )
+            raise InputError(f"robot '{self.biped.description.name}' has 0 motors, so no gait")
         return self.gait
 
 
@@ -183,38 +181,26 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     gain = impact_error(drawn(s, "impact"), width, biped.n).tolist() if width else ()
     course = stones(s)
     # a clock restarts at impact only if the controller knows the impact at once, without a detector
-    clock = hardware.period, hardware.touchdown.name is None, hardware.delay, hardware.delay_known
+    clock = hardware.touchdown.name is None, hardware.delay, hardware.delay_known
+    period, motors = hardware.period, (hardware.rate_limit, hardware.lag)
     return Walker(
         plant,
         scene.controller(s, course.lengths if course else ()),
         disturbances(s, biped, gait.period, plant),
-        _timing(*clock),
+        ContinuousTime() if period is None else _clock(period, *clock),
         model=None if plant is biped else biped,
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,
         slope=scene.slope(s),
         ground_steps=_ground(s),
         sensors=sensors(s),
-        motors=_motors(hardware.rate_limit, hardware.lag),
+        motors=_motors(*motors) if any(motors) else None,
         touchdown=_touchdown(s, gait),
         impact_gain=tuple(gain),
         stones=course,
         runaway_speed=s.run.runaway_speed,
         runaway_torque=s.run.runaway_torque,
     )
-
-
-# walks of a study share these, so that they are compared by identity
-@lru_cache(maxsize=64)
-def _timing(period: float | None, *more: Any) -> ContinuousTime | SampledTime:
-    """Continuous time without a period [s], else sampled time; more: the other fields of `SampledTime`."""
-    return ContinuousTime() if period is None else SampledTime(period, *more)
-
-
-@lru_cache(maxsize=64)
-def _motors(rate_limit: float | None, lag: float) -> Motors | None:
-    """Motors with this limit of the torque's rate [N m/s] and this lag [s]; None without both."""
-    return Motors(rate_limit, lag) if rate_limit or lag else None
 
 
 def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
@@ -316,8 +302,8 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     # a value of the user's that neither the plant nor its ground takes is an error
     all_taken("ground", g.own, {**takes(make), **takes(SoftGround)})
     # `construct` calls a class with those values that it takes; h: integration step of the plant
-    # OF_GROUND: values of the record that SoftGround takes
-    options = g.own | {name: getattr(g, name) for name in OF_GROUND}
+    # beside the user's own those values of the record that SoftGround takes
+    options = g.own | {x: getattr(g, x) for x in ("friction", "time_constant", "damping_ratio")}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": g.engine_step})
     return fastest_loop(walker, plant, s.run.engine, s.run.first_step)

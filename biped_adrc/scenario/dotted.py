@@ -48,15 +48,13 @@ def merged(before: Any, more: Any) -> Any:
     return before | {name: merged(before.get(name), x) for name, x in more.items()}
 
 
-def flat(
-    values: Mapping[str, Any], before: str = "", whole: Collection[str] = ()
-) -> dict[str, Any]:
+def flat(table: Mapping[str, Any], before: str = "", whole: Collection[str] = ()) -> dict[str, Any]:
     """Values by dotted name, of nested ones: the inverse of `tables`. Lists of other values become tuples.
 
     before: what all names begin with, such as "run.". whole: a table with one of these keys stays one value.
     """
     result: dict[str, Any] = {}
-    for name, x in values.items():
+    for name, x in table.items():
         if isinstance(x, list) and x and all(isinstance(y, Mapping) for y in x):
             x = {str(i): y for i, y in enumerate(x)}
         if isinstance(x, Mapping) and not set(x) & set(whole):

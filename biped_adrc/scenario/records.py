@@ -28,7 +28,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, ValidationInfo
 from pydantic.functional_validators import field_validator, model_validator
 
-from biped_adrc.core.checks import members
+from biped_adrc.core.checks import IN_WORDS, members
 from biped_adrc.core.errors import InputError, complaint, dotted_place, unknown
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
@@ -37,11 +37,8 @@ from biped_adrc.scenario.dotted import NAME, flat, merged, tables
 from biped_adrc.scenario.units import ANY, PLAIN, own_quantity, quantity
 
 _T = TypeVar("_T")
-_KINDS = {
-    float: "a number",
+_KINDS = IN_WORDS | {
     int: "a whole number",
-    bool: "true or false",
-    str: "a text",
     tuple: "a list",
     dict: "a table",
     object: "a record",
@@ -357,31 +354,29 @@ def converted(what: Described, x: Any) -> Any:
 
     Raises ValueError for a text that does not fit.
     """
-    types = what.types
+    types, unit = what.types, what.unit
     if isinstance(x, np.generic | np.ndarray):
         x = x.tolist()
     if isinstance(x, list | tuple) and all(isinstance(y, int | float | str) for y in x):
         # units in a list for a user's part
-        return tuple(
-            y if types or not isinstance(y, str) else own_quantity(y, what.unit) for y in x
-        )
+        return tuple(own_quantity(y, unit) if isinstance(y, str) and not types else y for y in x)
     if isinstance(x, Mapping) and dict in types:
-        return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
+        return {key: quantity(y, unit) if isinstance(y, str) else y for key, y in x.items()}
     if isinstance(x, str):
         if x == "none" and NoneType in types:
             return None
         if what.kind:
             return known_name(what.kind, x)
         if not types:
-            return own_quantity(x, what.unit)
+            return own_quantity(x, unit)
         if int in types and x.strip().isdecimal():
             return int(x)
         if int in types or float in types:
-            x = quantity(x, what.unit)
+            x = quantity(x, unit)
         elif bool in types and x in ("true", "false"):
             return x == "true"
         elif tuple in types and what.in_brackets:  # a list of numbers with a unit, such as lengths
-            return tuple(quantity(word, what.unit) for word in x.split(","))
+            return tuple(quantity(word, unit) for word in x.split(","))
     if int in types and isinstance(x, float) and x.is_integer():
         return int(x)
     return x

@@ -31,10 +31,9 @@ from numpy.typing import ArrayLike, NDArray
 from biped_adrc.analysis.certificate import Support, supports
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.closed_loop.other_plant import as_walked
-from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.shown import short, shown
@@ -73,6 +72,8 @@ class Sample(NamedTuple):
     """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
 
 
+Start = tuple[Array, Array]
+"""(q, v), each (n,) [rad, rad/s], at the start of a walk."""
 Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
 """A walk as `Stepper.save` found it: its walker, the walk, and the code of its status."""
 
@@ -94,8 +95,7 @@ class Stepper:
     def __init__(self, what: Scenario | Walker, count: int = 1, within: Limits | None = None):
         check_part(what, "what is moved by samples", Scenario, Walker)
         check_count(count, f"the number of walks is {count}")
-        if within is not None:
-            check_part(within, "within", Limits)
+        check_part(within, "within", Limits, type(None))
         self.what = what
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
@@ -129,10 +129,7 @@ class Stepper:
         return frozen(Sample(rows[:, 0], rows[:, 2:], rows[:, 1].astype(np.int64), _STATUS[codes]))
 
     def reset(
-        self,
-        i: int | None = None,
-        seed: int | None = None,
-        start: tuple[Array, Array] | None = None,
+        self, i: int | None = None, seed: int | None = None, start: Start | None = None
     ) -> Sample:
         """Begin walk i anew, or all walks if i is None.
 
@@ -146,7 +143,7 @@ class Stepper:
             self._begin(i, seed, start)
         return self.sample
 
-    def _begin(self, i: int, seed: int | None, start: tuple[Array, Array] | None) -> None:
+    def _begin(self, i: int, seed: int | None, start: Start | None) -> None:
         """Begin walk i, with seed and start as in `reset`: None takes the scenario's own.
 
         It becomes a `CompiledWalk`, or a `PythonWalk` where its plant moves by itself or one of its parts has
@@ -174,7 +171,7 @@ class Stepper:
         self.walks.put(i, walk, 0)  # 0 is the code of a walk that goes on
 
     def _start(
-        self, seed: int | None, start: tuple[Array, Array] | None, outside: Array | None = None
+        self, seed: int | None, start: Start | None, outside: Array | None = None
     ) -> tuple[Walker, ClosedLoop[Any], OneStepMethod, Array, Mode]:
         """Build a walk, with seed and start as in `reset`: its walker, the closed loop that moves, the method
         of integration, the state x (nx,) and the single support at the start.

@@ -25,7 +25,7 @@ from biped_adrc.control.base import Controller
 from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, WalkWarning, check_count
-from biped_adrc.core.once import shared
+from biped_adrc.core.part import shared
 from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import fastest_loop
 from biped_adrc.engine.program import COMPILED

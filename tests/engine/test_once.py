@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.core.once import constant, once, shared
+from biped_adrc.core.part import constant, once, shared
 from biped_adrc.engine.program import CompiledWalker
 
 METHOD = ba.RK4(1e-3)
@@ -122,7 +122,7 @@ def test_a_part_from_another_process_is_found_among_equal_ones_and_asked_again_w
     assert constant(law)
     data = pickle.dumps({law: "found"})
     code = (
-        "import pickle, sys; import biped_adrc as ba; from biped_adrc.core.once import constant\n"
+        "import pickle, sys; import biped_adrc as ba; from biped_adrc.core.part import constant\n"
         "(law,) = found = pickle.load(sys.stdin.buffer)\n"
         "fresh = ba.ADRCController(law.reference)\n"
         "print(fresh == law, found.get(fresh), constant(law), law.reference.curve.coefficients.flags.writeable)"

@@ -159,7 +159,7 @@ def test_what_was_traced_is_forgotten_where_it_is_machine_code(biped, gait, monk
     may live on in the walker, in the program or in a cache by class. Nothing is found in memory or on disk, so
     all is traced here.
     """
-    monkeypatch.setattr("biped_adrc.engine.generated.fetch", lambda key: None)
+    monkeypatch.setattr("biped_adrc.engine.generated.from_disk", lambda key, make: make())
     monkeypatch.setattr("biped_adrc.engine.generated._IN_MEMORY", {})
     # 1.1 ms: a period of no other test, so that no part remembers a walker with it
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=SampledTime(1.1e-3))

@@ -62,7 +62,7 @@ def by_hand(system, t, x):
     plant, b = system.plant, beliefs(system, x)
     m = system.measure(t, plant.relabel(q), plant.R @ v, Mode(int(b.step), b.start))
     s, u = semantics.command(system, s, m)
-    return system.calls.predict(s, m, u), u[system.swap]
+    return system.calls.predict(s, m, u), u[system.plant.swap]
 
 
 @pytest.mark.parametrize("controller", [ba.NPDController, low_order])
@@ -103,7 +103,7 @@ def test_noticed_at_the_first_tick_the_controller_jumps_and_acts_there(biped, ga
     assert 0.0 <= t - event.t < T
     q, v, s = system.split_state(x)
     m = system.measure(t, q, v, Mode(2, t))
-    s, u = semantics.command(system, system.calls.jump(s, m, system.swap), m)
+    s, u = semantics.command(system, system.calls.jump(s, m, system.plant.swap), m)
     np.testing.assert_allclose(arc.x[after][-4:], u, rtol=1e-9, atol=1e-9)
     s = system.calls.predict(s, m, u)
     np.testing.assert_allclose(system.split_state(arc.x[after])[2], s, rtol=1e-9)
@@ -122,7 +122,7 @@ def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, g
     (event,) = walked.events("foot_strike")
     assert beliefs(system, event.x_minus)[:3] == (0.0, 1.0, 0.0)
     assert beliefs(system, event.x_plus)[:3] == (1.0, 1.0, 0.0)
-    twice = semantics.strike(system, event.t, event.x_plus, Mode(3, event.t))
+    twice = semantics.strike(system, event.t, event.x_plus, Mode(3, event.t), system.gain)
     assert beliefs(system, twice)[:3] == (0.0, 1.0, 0.0)
     u = twice[-4:]
     np.testing.assert_array_equal(u, event.x_minus[-4:])

@@ -2,7 +2,7 @@
 
 import biped_adrc as ba
 from biped_adrc.analysis.soft_steps import recorded_steps
-from biped_adrc.closed_loop.feet import with_readings
+from biped_adrc.closed_loop.other_plant import with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.ground import ground_axes

@@ -7,7 +7,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.soft_steps import feet_of
-from biped_adrc.closed_loop.feet import with_readings
+from biped_adrc.closed_loop.other_plant import with_readings
 from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco

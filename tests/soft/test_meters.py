@@ -15,7 +15,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.soft_steps import feet_of, slip_times, spans, step_of
-from biped_adrc.closed_loop.feet import FEET, with_readings
+from biped_adrc.closed_loop.other_plant import FEET, with_readings
 from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant

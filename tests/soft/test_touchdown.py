@@ -85,4 +85,4 @@ def test_in_the_window_the_recorded_torque_is_the_old_law_s(plant, gait):
             q, v = biped.relabel(arc.x[k, :5]), biped.R @ arc.x[k, 5:10]
             m = loop.measure(arc.t[k], q, v, ba.closed_loop.protocols.Mode())
             u = loop.saturate(loop.law.output(np.zeros(0), m))
-            np.testing.assert_allclose(arc.read["u"][k], u[loop.swap], rtol=1e-8, atol=1e-8)
+            np.testing.assert_allclose(arc.read["u"][k], u[loop.plant.swap], rtol=1e-8, atol=1e-8)

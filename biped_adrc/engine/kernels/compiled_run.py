@@ -115,11 +115,9 @@ class CompiledRun:
         time = longest + T + h  # longest arc [s], with room for a sample instant and a step more
         stretches = 2 + self["n_switches"] + (clocks * (1.0 + time / T) if T > 0.0 else 0.0)
         rows = 1 + (time / h + 2.0 * stretches) * math.ceil(h / RESOLUTION)
-        self["look"] = look
-        self["width"] = (
-            node_layout(int(self["n"]), int(self["p"])).size if look else 1 + 2 * self.nx
-        )
-        self._keep_in(np.empty((arcs * math.ceil(rows), int(self["width"]))))
+        width = node_layout(int(self["n"]), int(self["p"])).size if look else 1 + 2 * self.nx
+        self["look"], self["width"] = look, width
+        self._keep_in(np.empty((arcs * math.ceil(rows), width)))
 
     def _keep_in(self, nodes: Array) -> None:
         """Set the array to which the run writes its nodes; room: how many nodes fit."""

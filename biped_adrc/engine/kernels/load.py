@@ -19,7 +19,7 @@ from typing import Any
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.engine.kernels.write import sources, written
-from biped_adrc.engine.machine import LOCK, fetch, hash_of, load_or_compile, store
+from biped_adrc.engine.machine import LOCK, from_disk, hash_of, load_or_compile
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (
@@ -85,11 +85,7 @@ def loops(files: tuple[str, ...] = FILES) -> str:
         )
     # WRITER: the module that writes the text
     key = hash_of(sources((*files, WRITER)), version("numba"))
-    code = fetch(key)
-    if code is None:
-        code = written(files).encode()
-        store(key, code)
-    return code.decode()
+    return from_disk(key, lambda: written(files).encode()).decode()
 
 
 def text_file(files: tuple[str, ...]) -> Path:

@@ -139,7 +139,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
         "p": k.p,
         "period": decimal(walker.clock.period),
         # an index from p on stands for a torque that changes its sign (`types.relabelled`)
-        "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
+        "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.plant.swap.tolist()],
         "rates_read": functions_.rates,
         "rates": _rates(functions_.rates, k.n),
         # C text of a test: x - x is 0 for a finite x alone

@@ -123,7 +123,7 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
         if k == 0:
             s = law.initial_state(m)
         elif after is not None:
-            s = calls.jump(s, after, walker.swap)
+            s = calls.jump(s, after, walker.plant.swap)
         # expected: position x1^ and disturbance xi^ of the observer before the correction by this row
         expected = calls.estimate(s, m)
         s = calls.correct(s, m)

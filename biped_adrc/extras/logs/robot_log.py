@@ -256,4 +256,4 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> tuple[float, float, Arra
     nodes = slice(k, end + 1)
     t, acted = arc.t[nodes], motor_torque(parts(walker, arc.x[nodes]).tail.line)
     u = np.trapezoid(acted, t, axis=0) / (t[-1] - t[0])  # also where it is late or lags
-    return float(arc.t[k]), step, q, relabelled(u, walker.swap) if other > 0.5 else u, v
+    return float(arc.t[k]), step, q, relabelled(u, walker.plant.swap) if other > 0.5 else u, v

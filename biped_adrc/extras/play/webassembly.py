@@ -27,7 +27,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
-from biped_adrc.engine.machine import Code, fetch, hash_of, object_code, parsed, store
+from biped_adrc.engine.machine import Code, from_disk, hash_of, object_code, parsed
 from biped_adrc.engine.program import CompiledWalker, push_code
 
 
@@ -118,11 +118,7 @@ def web_module(laws: Mapping[str, str], called: Sequence[str] = _LOOPS) -> bytes
     # the cache's key has the text of this file, so that a change here compiles anew
     own = Path(__file__).read_text(encoding="utf-8")
     key = hash_of(TARGET, loops(), own, *called, *chain(*laws.items()))
-    code = fetch(key)
-    if code is None:
-        code = _linked(laws, called)
-        store(key, code)
-    return code
+    return from_disk(key, lambda: _linked(laws, called))
 
 
 def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
