@@ -117,8 +117,8 @@ def controller_inputs(
 class StepReading(NamedTuple):
     """The signals of the closed loop at one instant that verdicts and studies read.
 
-    To add a signal, add a line here, with its size ("p", "n", a number, or () for a single number), and its
-    value in `of`.
+    To add a signal, add a line here, with its size ("p", "n", a number, or () for a single number), and a line
+    in `of`.
     """
 
     error: Annotated[Array, "p"]
@@ -140,8 +140,14 @@ class StepReading(NamedTuple):
         with a leading axis of K; s: an `InstantSignals`, or an `analysis.signals.Signals`.
         """
         p = s.u.shape[-1]
-        # in the order of the fields
-        return cls(q[..., :p] - s.q_d, s.u, q, v[..., :p], s.momentum, s.swing_foot)
+        return cls(
+            error=q[..., :p] - s.q_d,
+            u=s.u,
+            q=q,
+            v_b=v[..., :p],
+            momentum=s.momentum,
+            swing_foot=s.swing_foot,
+        )
 
 
 class NodeRow(NamedTuple):

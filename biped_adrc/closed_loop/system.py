@@ -373,16 +373,21 @@ def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
 
 @once
 def _held(
-    time: SampledTime, motors: Motors, sensor: Sensor | None, detector: Touchdown | None, *more: int
+    time: SampledTime,
+    motors: Motors,
+    sensor: Sensor | None,
+    touchdown: Touchdown | None,
+    n: int,
+    p: int,
+    own: int,
 ) -> HeldParts:
-    """Compute `ClosedLoop.held`; more: n coordinates, p motors and `own` numbers of a plant that moves by
-    itself. It is remembered in `time`, so that loops with equal parts share the result."""
-    n, p, own = more
+    """Compute `ClosedLoop.held` for n coordinates, p motors and `own` numbers of a plant that moves by itself.
+    It is remembered in `time`, so that loops with equal parts share the result."""
     # drive: rate limit, lag and delay of the motors; line: torques on their way, here for their layout
     sensors = None if sensor is None else sensor.sampled(n, p, time.period)
     drive, line = motors.sampled(p, time.delay, time.period)
     known = time.delay_known and time.delay > 0.0
-    return frozen(HeldParts(sensors, drive, detector, known, own, Layout.of(line)))
+    return frozen(HeldParts(sensors, drive, touchdown, known, own, Layout.of(line)))
 
 
 @once

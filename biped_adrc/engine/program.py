@@ -66,8 +66,10 @@ class Program:
 
     @cached_property
     def equations(self) -> Equations:
-        """The functions on symbols."""
-        return on_symbols("equations", "Equations", self.layout, self.numbers)
+        """The functions on symbols; the import here, where something is traced, brings CasADi in."""
+        from biped_adrc.engine.equations import Equations
+
+        return Equations(self.layout, self.numbers)
 
     @property
     def nx(self) -> int:
