@@ -50,8 +50,6 @@ _GRID = 401
 """Number of phases at which signs and extremes are searched; zeros between two of them are then solved for."""
 _DURATION = 1e-6
 """Largest relative error [1] of a duration, by the error estimate of its quadrature."""
-_SADDLE = 1e-6
-"""Largest |dV_zero/dTheta| at the phase of V_max, over that in the step [1], of an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:
@@ -263,11 +261,11 @@ class ZeroOrbits(Shown):
         domain, zeta = V_max / delta^2, it is 0 where the step comes to rest at V_max for ever.
         """
         if zeta == self.lowest:
-            # an equilibrium, where dV_zero/dTheta is 0 (below the share _SADDLE of its largest value), is
+            # an equilibrium, where dV_zero/dTheta is 0 (below the share 1e-6 of its largest value), is
             # approached and never passed; a V_max at an end of the step is left or reached in finite time
             slope = self.potential.deriv()
             largest = float(np.max(np.abs(slope(grid(self.zero)))))
-            if abs(float(slope(self.theta_max))) < _SADDLE * largest:
+            if abs(float(slope(self.theta_max))) < 1e-6 * largest:
                 return 0.0
         return self.step_length / self.period(zeta)
 

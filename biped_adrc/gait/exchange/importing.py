@@ -44,16 +44,7 @@ from biped_adrc.core.files import output_path, plain, read_json, reading, write_
 from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
 from biped_adrc.gait.exchange.entries import all_entries, entry, frost_steps
-from biped_adrc.gait.exchange.record import (
-    ENTRIES,
-    REQUIRED,
-    SLOPES,
-    GaitFile,
-    coordinates,
-    foot_down,
-    onto_ground,
-    record_of,
-)
+from biped_adrc.gait.exchange.record import GaitFile, coordinates, foot_down, onto_ground, record_of
 from biped_adrc.gait.exchange.samples import Samples, explained, gait_of_samples, read_csv
 from biped_adrc.gait.gait import FORMAT as STORED
 from biped_adrc.gait.gait import Gait
@@ -112,7 +103,7 @@ def write_record(record: GaitFile, path: Path | str) -> None:
     """
     path = output_path(path, (".json", ".mat"))
     entries = {key: x for key, x in vars(record).items() if x is not None}
-    units = {key: unit for key, (_, unit) in ENTRIES.items()}
+    units = {key: unit for key, (_, unit) in GaitFile.ENTRIES.items()}
     if path.suffix.lower() == ".mat":
         for key, x in entries.items():
             entries[key] = np.atleast_2d(x) if isinstance(x, np.ndarray) else x  # rows stay rows
@@ -168,8 +159,7 @@ def read_record(
             except (KeyError, IndexError, ValueError, TypeError):
                 absent.append(theirs)
         samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
-        # REQUIRED: the entries without a default
-        absent += [key for key in REQUIRED if not samples and key not in entries]
+        absent += [key for key in GaitFile.REQUIRED if not samples and key not in entries]
         if absent:
             more = f" and {len(known) - _SHOWN} more" if len(known) > _SHOWN else ""
             raise GaitError(
@@ -233,6 +223,8 @@ def export_run(columns: Mapping[str, Array], path: Path | str, note: str = "") -
 
 RATES = 1e-2
 """Largest difference between the rates before impact that a record states and those of its curve [rad/s]."""
+SLOPES = 1e-2
+"""Largest jump of dq/dTheta through the impact in a gait whose slopes close [rad/rad]."""
 
 
 def import_gait(

@@ -16,7 +16,7 @@ and A, b those of the convention's map q = A q' + b. `coordinates` converts a re
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -32,26 +32,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 
 _TURN = 2.0 * np.pi
-_PARALLEL = 1e-12
-"""Largest relative difference of two phase rows that count as parallel."""
-SLOPES = 1e-2
-"""Largest jump of dq/dTheta through the impact in a gait whose slopes close [rad/rad]."""
-ENTRIES = {
-    "coefficients": (2, "rad"),
-    "theta_plus": (0, "rad"),
-    "theta_minus": (0, "rad"),
-    "phase": (1, "1"),
-    "outputs": (2, "1"),
-    "q_minus": (1, "rad"),
-    "v_minus": (1, "rad/s"),
-    "period": (0, "s"),
-    "slope": (0, "rad"),
-}
-"""Name of each numeric entry -> number of its dimensions, and unit."""
 NEAR = 5e-3
 """Largest distance of a swing foot from its ground that an import takes away [m]."""
-REQUIRED = ("coefficients", "theta_plus", "theta_minus")
-"""Names of the entries without a default."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +46,21 @@ class GaitFile(Shown):
     Only convention, coefficients and the range of the phase are needed; everything else has a default or
     follows from the robot when the record is imported. Raises GaitError that names the entry.
     """
+
+    ENTRIES: ClassVar = {
+        "coefficients": (2, "rad"),
+        "theta_plus": (0, "rad"),
+        "theta_minus": (0, "rad"),
+        "phase": (1, "1"),
+        "outputs": (2, "1"),
+        "q_minus": (1, "rad"),
+        "v_minus": (1, "rad/s"),
+        "period": (0, "s"),
+        "slope": (0, "rad"),
+    }
+    """Name of each numeric entry -> number of its dimensions, and unit."""
+    REQUIRED: ClassVar = ("coefficients", "theta_plus", "theta_minus")
+    """Names of the entries without a default."""
 
     convention: str
     """Name of the angle convention, of `conventions.CONVENTIONS`; "own" for the robot's own coordinates."""
@@ -97,9 +94,9 @@ class GaitFile(Shown):
         """Check the numbers of each entry in ENTRIES, which states the number of its dimensions, and keep them
         read-only. An entry in REQUIRED may not be None.
         """
-        for key, (dimensions, _) in ENTRIES.items():
+        for key, (dimensions, _) in self.ENTRIES.items():
             value = getattr(self, key)
-            if value is not None or key in REQUIRED:
+            if value is not None or key in self.REQUIRED:
                 object.__setattr__(self, key, self._numbers(key, value, dimensions))
 
     def _numbers(self, key: str, value: object, dimensions: int) -> Array | float:
@@ -188,8 +185,8 @@ def onto_ground(
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     """The curve A h(s) + b, of the same kind and degree as h = `curve`; A (rows, p), b (rows,) [rad]."""
-    # shifted(b) returns the coefficients of the curve plus b, of which a curve is made again
-    return type(curve)(type(curve)(A @ curve.coefficients).shifted(b))
+    # the ramp from 1 to 1 is the constant 1
+    return type(curve)(A @ curve.coefficients + np.outer(b, curve.ramp(curve.degree, 1.0, 1.0)))
 
 
 def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
@@ -206,9 +203,10 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     # theta = c' q' = (c' A^-1) q - c' A^-1 b
     row = c @ to_paper.inverse.A
     ends = np.array([record.theta_plus, record.theta_minus]) + float(row @ to_paper.b)
-    # row = k paper_phase where they are parallel; k < 0 for a phase that grows where the paper's falls
+    # row = k paper_phase where they are parallel but for round-off; k < 0 for a phase that grows where the
+    # paper's falls
     k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
-    if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):
+    if np.max(np.abs(row - k * layout.paper_phase)) <= 1e-12 * np.max(np.abs(row)):
         row, ends = layout.paper_phase, ends / k
     # by the pose in the middle of the step, s = 0.5
     turns = np.zeros(layout.n) if layout.name == OWN else whole_turns(curve(0.5)[0])
@@ -278,6 +276,8 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
     back = other.to_paper.inverse
     # Theta = c q = c A q' + c b
     plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
+    # the entries that are the same in all conventions
+    names = ("name", "robot", "preset", "provenance", "period", "slope")
     return GaitFile(
         to,
         other.outputs @ mapped(curve, back.A, back.b).coefficients,
@@ -287,10 +287,5 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
         curve=type(constraint.curve).__name__.lower(),
         q_minus=back.angles(gait.q_minus),
         v_minus=back.rates(gait.v_minus),
-        period=gait.period,
-        slope=gait.slope,
-        name=gait.name,
-        robot=gait.robot,
-        preset=gait.preset,
-        provenance=gait.provenance,
+        **{name: getattr(gait, name) for name in names},
     )
