@@ -29,8 +29,6 @@ from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
 """Types of joints, in the order of MuJoCo's numbers for them."""
-_TURNS = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
-"""Attributes of a body that turn its frame."""
 
 
 def read_mjcf(path: Path) -> Contents:
@@ -87,8 +85,8 @@ def _compiled(model: Any, path: Path) -> Any:
         root = ET.fromstring(path.read_bytes().lstrip())
         bodies = root.findall(".//body")
         # without `pos` the turn of a turned body, and the place of a body without joints, would be lost
-        # _TURNS: attributes that turn a body's frame
-        if any(_TURNS & {*body.attrib} or body.find("joint") is None for body in bodies):
+        turns = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
+        if any(turns & {*body.attrib} or body.find("joint") is None for body in bodies):
             raise
     for element in (*root.iterfind("compiler"), *bodies):
         element.attrib = {k: x for k, x in element.attrib.items() if k not in ("coordinate", "pos")}

@@ -41,14 +41,11 @@ ConeFloat = Annotated[float, Range("a number above 0 and at most 1", lambda x: 0
 
 
 class KnownLimits(NamedTuple):
-    """The `Limits` of one robot, with a number in place of every None."""
+    """The `Limits` of one robot, with a number in place of every None, in the same units."""
 
     friction: float
-    """Dry friction mu of the ground, dimensionless."""
     torque: float
-    """Torque limit of every motor [N m]."""
     window: float
-    """Time over which the ground's force is averaged [s]."""
 
 
 @dataclass(frozen=True)
