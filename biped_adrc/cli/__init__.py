@@ -15,7 +15,7 @@ import sys
 import warnings
 from importlib import import_module
 
-from biped_adrc.cli.app import EXIT_INTERRUPTED, Lasting, app, errors
+from biped_adrc.cli.app import ExitCode, Lasting, app, errors
 from biped_adrc.core.errors import BipedError, OutputError
 
 __all__ = ["app", "main"]
@@ -62,7 +62,7 @@ def _run() -> int:
         # typer ends every command so, also one that is all right; its code is a number, None (0) or a text (1)
         code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
     except KeyboardInterrupt:
-        code = EXIT_INTERRUPTED
-    if code == EXIT_INTERRUPTED:
+        code = ExitCode.INTERRUPTED
+    if code == ExitCode.INTERRUPTED:
         errors.say("interrupted; what was already written is complete")
     return code

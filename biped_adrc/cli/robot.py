@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, FIGURES, console, errors, group, inputs, target
+from biped_adrc.cli.app import FIGURES, ExitCode, console, errors, group, inputs, target
 from biped_adrc.cli.options import options, scenario_from, with_sets
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import check_folder
@@ -81,14 +81,12 @@ def robot_check(
     derived = _derived(file, feet, actuated, torque, sets)
     _explain(derived)
     from biped_adrc.view.from_the_side.check_figure import check_figure
-    from biped_adrc.view.style import write_figure
 
-    write_figure(plot, check_figure(derived.biped))
-    console.written(plot)
+    console.draw(plot, check_figure(derived.biped))
     if derived.broken:
         for check in derived.broken:
             errors.say(f"error: {check}")
-        raise typer.Exit(EXIT_CHECK_FAILED)
+        raise typer.Exit(ExitCode.CHECK_FAILED)
 
 
 @robot_app.command("new")
