@@ -144,7 +144,7 @@ def test_rows_that_are_other_outputs(biped, gait, record):
         [[0, 0, 0, 0, 1], [-1, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]], dtype=float
     )
     # curves of all five angles; the record has those of the four motors
-    curve = coordinates(record, layout_of(OWN, biped)).curve
+    curve = coordinates(record, layout_of(OWN, biped))[0].curve
     other = replace(record, coefficients=H0 @ curve.coefficients, outputs=H0)
     assert_same(gait, import_gait(other, biped), abs=1e-9)
 

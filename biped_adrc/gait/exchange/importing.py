@@ -46,8 +46,7 @@ from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_pape
 from biped_adrc.gait.exchange.entries import all_entries, entry, frost_steps
 from biped_adrc.gait.exchange.record import GaitFile, coordinates, foot_down, onto_ground, record_of
 from biped_adrc.gait.exchange.samples import Samples, explained, gait_of_samples, read_csv
-from biped_adrc.gait.gait import FORMAT as STORED
-from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.gait import FORMAT, Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.model.biped import Biped
 
@@ -168,8 +167,8 @@ def read_record(
             )
         stated = entries.get("convention")
         # without a statement these two are in the robot's own coordinates: gaits of this package, and samples
-        # STORED: format of a gait that this package wrote
-        stored = result.get("format") == STORED or samples
+        # FORMAT: of a gait that this package stored
+        stored = result.get("format") == FORMAT or samples
         convention_ = stated or convention or (OWN if stored else usual)
         # no convention, or two different ones
         if convention_ is None or (stated and convention not in (None, stated)):
@@ -322,16 +321,18 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     source: of the record, for a provenance that states none.
     """
     layout = layout_of(record.convention, biped)
-    along, remark = onto_ground(coordinates(record, layout), biped, record.slope)
+    every, turns = coordinates(record, layout)
+    along, remark = onto_ground(every, biped, record.slope)
     # along: curves of all coordinates, with dq/ds at s = 1 in dq, so dq / span is dq/dTheta before impact
-    constraint, span = along.constraint, along.theta_minus - along.theta_plus
-    q, dq, _ = along.curve(1.0)
+    curve, span = along.curve, along.theta_minus - along.theta_plus
+    constraint = replace(along, curve=type(curve)(curve.coefficients[:-1]))
+    q, dq, _ = curve(1.0)
     provenance = dict(record.provenance) or {
         "method": f"imported from convention '{record.convention}'",
         "source": source,
     }
-    if along.turns.any():
-        provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in along.turns)
+    if turns.any():
+        provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in turns)
     provenance |= remark
     robot, preset = record.robot or biped.description.name, record.preset or biped.preset
     names = record.name, robot, preset
@@ -339,7 +340,7 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     gait = Gait(*names, constraint, q, dq / abs(span), 1.0, provenance, record.slope).check(biped)
     if record.q_minus is not None and record.v_minus is not None:
         # the record's state, moved as its curves were: by whole turns, and with the foot onto the ground
-        q = layout.to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns
+        q = layout.to_paper.angles(record.q_minus) + 2.0 * np.pi * turns
         q, v = q + foot_down(biped, q, record.slope)[0], layout.to_paper.rates(record.v_minus)
         gap = np.abs(v - dq * float(along.phase @ v) / span)
         joint = int(np.argmax(gap))

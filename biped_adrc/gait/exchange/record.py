@@ -16,7 +16,7 @@ and A, b those of the convention's map q = A q' + b. `coordinates` converts a re
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -119,27 +119,6 @@ class GaitFile(Shown):
         return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
 
 
-class Coordinates(NamedTuple):
-    """Curves of all n of the paper's coordinates over a step, and the phase they belong to."""
-
-    curve: Curve
-    """q(s), (n, M + 1) coefficients [rad]."""
-    phase: Array
-    """c (n,), Theta = c q."""
-    theta_plus: float
-    """Theta at s = 0, after impact [rad]."""
-    theta_minus: float
-    """Theta at s = 1, before the next impact [rad]."""
-    turns: Array
-    """Whole turns (n,) that were added so that hips lie near pi and the others near 0."""
-
-    @property
-    def constraint(self) -> VirtualConstraint:
-        """The virtual constraint of the actuated coordinates, which are all but the last."""
-        curve = type(self.curve)(self.curve.coefficients[:-1])
-        return VirtualConstraint(curve, self.phase, self.theta_plus, self.theta_minus)
-
-
 def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, str]]:
     """The least change (n,) of the actuated joints of q- = q (n,) [rad] that puts the swing foot onto the
     ground, and a remark for the provenance.
@@ -157,10 +136,11 @@ def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, st
 
 
 def onto_ground(
-    along: Coordinates, biped: Biped, slope: float
-) -> tuple[Coordinates, dict[str, str]]:
+    along: VirtualConstraint, biped: Biped, slope: float
+) -> tuple[VirtualConstraint, dict[str, str]]:
     """Move the end of a step, and so its start after relabelling, until the swing foot is on ground of `slope`
-    [rad], as `foot_down` does; returns the curves and a remark for the provenance. along: the curves.
+    [rad], as `foot_down` does; returns the curves and a remark for the provenance. along: the curves of all
+    coordinates.
 
     dq/dTheta at the end stays; at the start it changes as dq/dTheta after the impact does, so that a
     hybrid-invariant gait stays one. Only Bezier curves are moved.
@@ -180,7 +160,7 @@ def onto_ground(
     last = (spans[1] / spans[0] - 1.0) * d
     # the change of the curves is a Bezier curve itself, with these ends and slopes
     curve = Bezier(a + Bezier.between(first, after - before, last, dq, a.shape[1] - 1))
-    return Coordinates(curve, c, plus, minus, along.turns), remark
+    return VirtualConstraint(curve, c, plus, minus), remark
 
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
@@ -189,8 +169,10 @@ def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     return type(curve)(A @ curve.coefficients + np.outer(b, curve.ramp(curve.degree, 1.0, 1.0)))
 
 
-def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
-    """Convert a record to curves of all the paper's coordinates; layout: the record's convention.
+def coordinates(record: GaitFile, layout: Convention) -> tuple[VirtualConstraint, Array]:
+    """Convert a record to curves of all n of the paper's coordinates over their phase, those of the actuated
+    ones and of the last; layout: the record's convention. Also returns the whole turns (n,) that were added so
+    that hips lie near pi and the others near 0.
 
     It completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it
     is parallel to it, and adds whole turns (none in the robot's own coordinates). Raises GaitError when the
@@ -212,7 +194,7 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     turns = np.zeros(layout.n) if layout.name == OWN else whole_turns(curve(0.5)[0])
     curve = mapped(curve, np.eye(layout.n), _TURN * turns)
     ends = ends + row @ (_TURN * turns)
-    return Coordinates(curve, row, float(ends[0]), float(ends[1]), turns)
+    return VirtualConstraint(curve, row, float(ends[0]), float(ends[1])), turns
 
 
 def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
