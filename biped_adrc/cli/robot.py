@@ -24,7 +24,6 @@ import typer
 import biped_adrc as ba
 from biped_adrc.cli.app import FIGURES, ExitCode, console, errors, group, inputs, target
 from biped_adrc.cli.options import options, scenario_from, with_sets
-from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
@@ -101,10 +100,8 @@ def robot_new(
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF or MJCF, for Biped.load("FOLDER/robot.toml")."""
     check_folder(out)
-    derived = _derived(file, feet, actuated, torque, sets)
     # nothing is written for a model that breaks a law of mechanics
-    if derived.broken:
-        raise ModelError(f"'{file}': {'; '.join(map(str, derived.broken))}")
+    derived = _derived(file, feet, actuated, torque, sets).sound()
     _explain(derived)
     console.written(derived.write(out))
 

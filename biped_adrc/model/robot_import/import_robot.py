@@ -40,7 +40,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -214,6 +214,12 @@ class Derived:
         """The checks of laws that do not hold; empty for a robot that can be used."""
         return tuple(check for check in self.checks if not check.holds)
 
+    def sound(self) -> Self:
+        """The same robot. Raises ModelError, with the laws that do not hold."""
+        if self.broken:
+            raise ModelError(f"'{self.biped.tree.source}': {'; '.join(map(str, self.broken))}")
+        return self
+
     def write(self, folder: Path | str) -> Path:
         """Write floating.urdf and robot.toml for `Biped.load` into a folder; returns the path of robot.toml.
 
@@ -247,11 +253,8 @@ def biped_from_urdf(
     >>> ba.biped_from_urdf(biped.description.urdf).n
     5
     """
-    derived = derive(path, Hints(feet, actuated, hip, torque, armature=armature, tip=tip))
-    if derived.broken:
-        broken = "; ".join(str(check) for check in derived.broken)
-        raise ModelError(f"'{path}': {broken}")
-    return derived.biped
+    hints = Hints(feet, actuated, hip, torque, armature=armature, tip=tip)
+    return derive(path, hints).sound().biped
 
 
 def derive(path: Path | str, hints: Hints | None = None) -> Derived:
@@ -267,7 +270,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     tree, of_legs = urdf.evened(body.tree, pair)
     body = replace(body, tree=tree).noting(*of_legs)
     parts = anatomy(body, pair, hints.hip)
-    tree, of_shapes = drawable(body.tree, parts.feet)
+    tree, of_shapes = drawable(body.tree, pair)
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
     rotors, of_rotors = _armature(contents, actuated, hints)
