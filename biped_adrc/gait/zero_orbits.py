@@ -146,20 +146,18 @@ class ZeroOrbits(Shown):
         Raises GaitError, with what to change, where there is no stable orbit.
         """
         d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
-        wrong = ""
+        why = ""
         if not d2 < 1.0:
-            wrong = (
-                f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster"
-            )
+            why = f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster"
         elif not V < 0.0:
-            wrong = f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step"
+            why = f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step"
         elif not self.existence < 0.0:
-            wrong = (
+            why = (
                 f"a step would begin {self.existence:.3g} {unit} short of the V_max = {self.v_max:.6g} that it "
                 f"has to pass at Theta = {self.theta_max:.4g} rad; lower the hip there or shorten the way"
             )
-        if wrong:
-            raise GaitError(f"the zero dynamics have no stable orbit: {wrong}")
+        if why:
+            raise GaitError(f"the zero dynamics have no stable orbit: {why}")
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:

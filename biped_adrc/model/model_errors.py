@@ -10,9 +10,9 @@ thighs. Twins are a joint and its counterpart in the other leg. `ModelErrors.app
 controller keeps the robot without errors as nominal model.
 """
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from math import inf, isfinite
 from typing import Annotated, Self
 
 import numpy as np
@@ -24,11 +24,9 @@ from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 
 # ranges of fields {name: error}: finite errors; those that leave more than nothing; those that leave 0 or more
-FINITE = each("finite numbers by name", math.isfinite)
-ABOVE = each(
-    "finite numbers above -1 by name, such as {'torso': 0.2}", lambda e: -1.0 < e < math.inf
-)
-NOT_BELOW = each("finite numbers, none below -1, by name", lambda e: -1.0 <= e < math.inf)
+FINITE = each("finite numbers by name", isfinite)
+ABOVE = each("finite numbers above -1 by name, such as {'torso': 0.2}", lambda e: -1.0 < e < inf)
+NOT_BELOW = each("finite numbers, none below -1, by name", lambda e: -1.0 <= e < inf)
 
 
 @dataclass(frozen=True)

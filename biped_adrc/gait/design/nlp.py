@@ -51,9 +51,7 @@ from biped_adrc.model.biped import Biped
 
 LONGEST_STEP = 1.2
 """Longest step that is searched, as a share of the leg length."""
-PASSED = 0.5
-"""Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
-LATE = f"the swing foot above the ground after {PASSED:.0%} of the step"
+LATE = "the swing foot above the ground after 50% of the step"
 """Name of the limit on the swing foot where no clearance is required."""
 ASKED = ("the speed", "the step length")
 """Names of the equality rows that state the request rather than the physics of the step."""
@@ -121,7 +119,7 @@ def _equalities(k: SymbolicStep) -> list[Bounded]:
     # slopes at the ends: dh/ds = (alpha_1 - alpha_0) / reach, and likewise at the end
     reach = float(k.request.kind.abscissae(M)[1])
     begin, end = x.alpha[:, 1] - x.alpha[:, 0], x.alpha[:, M] - x.alpha[:, M - 1]
-    zero = [
+    zero: list[tuple[str, ca.MX] | tuple[str, ca.MX, str]] = [
         ("the swing foot on the ground", k.out @ k.foot / k.leg),
         ("the constraint before impact", x.alpha[:, M] - x.q[:p]),
         # dh/ds = (Theta- - Theta+) dq_b/dTheta; after impact multiplied by Theta'+, which is not divided by
@@ -187,8 +185,8 @@ def _limits(k: SymbolicStep) -> list[Bounded]:
             Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, inf, "of m sqrt(g leg)"),
         ]
     # nodes at which the foot has to be above the ground: without a clearance those in the later half of the
-    # step alone, s > PASSED, since a leg without a knee scuffs before
-    scuffs = PASSED if limits.clearance is None else 0.0
+    # step alone, since a leg without a knee scuffs before
+    scuffs = 0.5 if limits.clearance is None else 0.0
     above = [i for i, x in enumerate(s) if scuffs < x < 1.0]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
@@ -296,10 +294,9 @@ def relaxed(
     """
     # ASKED: names of the rows of the requested speed and step length
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
-    hard = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
+    rows = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
     names = list(dict.fromkeys(row.name for row in soft))
     slack = ca.MX.sym("slack", len(names))
-    rows = list(hard)
     for row in soft:
         give = ca.repmat(slack[names.index(row.name)], row.value.numel(), 1)
         if np.isfinite(row.low):

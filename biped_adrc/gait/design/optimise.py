@@ -354,14 +354,12 @@ def _bounds(
     # rate, rates: |Theta'| just before the impact and at the nodes; alpha: coefficients; q, slope: q- and
     # dq_b/dTheta just before the impact
     free = Unknowns[Array](*(np.full(part.shape, np.inf) for part in unknowns))
-    one, all_nodes = np.ones(1), np.ones(request.nodes)
+    one, each = np.ones(1), np.ones(request.nodes)
     peak = (1.0 - limits.reserve) * one
     least = 0.0 * one if request.objective is Objective.PEAK else peak
     low = Unknowns[Array](*(-part for part in free))
-    low = low._replace(rate=0.02 * one, rates=0.02 * all_nodes, alpha=guess.alpha - 1.5, peak=least)
-    high = free._replace(
-        rate=60.0 * one, rates=60.0 * all_nodes, alpha=guess.alpha + 1.5, peak=peak
-    )
+    low = low._replace(rate=0.02 * one, rates=0.02 * each, alpha=guess.alpha - 1.5, peak=least)
+    high = free._replace(rate=60.0 * one, rates=60.0 * each, alpha=guess.alpha + 1.5, peak=peak)
     if request.through is not None:
         fixed = {"q": guess.q, "slope": guess.slope, "rate": guess.rate}
         low, high = low._replace(**fixed), high._replace(**fixed)

@@ -106,18 +106,6 @@ def basis_function(k: SymbolicStep) -> ca.Function:
     return ca.Function("basis", [s], [*rows])
 
 
-def curve_function(k: SymbolicStep, basis: ca.Function) -> ca.Function:
-    """Make the CasADi function (coefficients of the curve and its bend (p (M + 3),), (Theta+, Theta-), s) ->
-    the rows of `Node` at Theta' = 0, and at |Theta'| = 1 rad/s. Both are in one function, so that CasADi
-    computes what they share once.
-    """
-    M = k.request.degree + 2  # a_0, a_1 are two coefficients more
-    alpha, theta, s = ca.SX.sym("a", k.p * (M + 1)), ca.SX.sym("t", 2), ca.SX.sym("s")
-    node = node_function(robot_of(k.biped), k.biped.phase, M, k.direction)
-    rows = [node(alpha, theta, s, *basis(s), rate) for rate in (0.0, 1.0)]
-    return ca.Function("curve", [alpha, theta, s], rows, {"cse": True})
-
-
 class RoughSteps:
     """Steps over the heights H and -H on the curve of a `SymbolicStep` k, and one over level ground.
 
@@ -126,7 +114,13 @@ class RoughSteps:
 
     def __init__(self, k: SymbolicStep) -> None:
         self.k, self.basis = k, basis_function(k)
-        self.function = curve_function(k, self.basis)
+        M = k.request.degree + 2  # a_0, a_1 are two coefficients more
+        alpha, theta, s = ca.SX.sym("a", k.p * (M + 1)), ca.SX.sym("t", 2), ca.SX.sym("s")
+        node = node_function(robot_of(k.biped), k.biped.phase, M, k.direction)
+        # coefficients of the curve and its bend (p (M + 1),), (Theta+, Theta-) and s -> the rows of `Node` at
+        # Theta' = 0, and at |Theta'| = 1 rad/s; in one function, so that CasADi computes what they share once
+        rows = [node(alpha, theta, s, *self.basis(s), rate) for rate in (0.0, 1.0)]
+        self.function = ca.Function("curve", [alpha, theta, s], rows, {"cse": True})
         self.gauss = gauss_nodes(k.request.nodes // 2)
         self.straight = ca.MX.zeros(k.p, 2)
         H, up, down = ca.vertsplit(k.x.rough)

@@ -182,7 +182,7 @@ def _notes(m: Any, hinges: dict[str, int]) -> Notes:
     """
     springs = {n: float(m.jnt_stiffness[j]) for n, j in hinges.items() if m.jnt_stiffness[j]}
     zeros = {n: z for n, j in hinges.items() if (z := float(m.qpos0[m.jnt_qposadr[j]]))}
-    g = m.opt.gravity.tolist()
+    g, usual = m.opt.gravity.tolist(), [0.0, 0.0, -GRAVITY]
     # (what was found, text): no note where it is 0, empty or False
     notes = (
         (m.ngeom, f"{m.ngeom} shapes with their contacts, such as soles: the feet are points"),
@@ -190,9 +190,6 @@ def _notes(m: Any, hinges: dict[str, int]) -> Notes:
         (zeros, f"zeros of joints: angles count from the reference posture, at {zeros} rad"),
         (np.any(m.actuator_biastype), "gains of servos: the motors are torques"),
         (m.ntendon, f"{m.ntendon} tendons"),
-        (
-            g != [0.0, 0.0, -GRAVITY],
-            f"gravity {g} m/s^2; --set gravity= gives another than {GRAVITY}",
-        ),
+        (g != usual, f"gravity {g} m/s^2; --set gravity= gives another than {GRAVITY}"),
     )
     return tuple(Note("left out", text) for found, text in notes if found)

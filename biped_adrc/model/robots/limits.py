@@ -35,8 +35,7 @@ ROUND_OFF = 1e-9
 """Share of a force [1] by which it may lie outside the friction cone and still count as inside."""
 
 ENDS = 0.03
-"""Share [1] of the time of a walking step, at either end, in which the swing foot may touch the ground.
-"""
+"""Share [1] of the time of a walking step, at either end, in which the swing foot may touch the ground."""
 ConeFloat = Annotated[float, Range("a number above 0 and at most 1", lambda x: 0.0 < x <= 1.0)]
 
 

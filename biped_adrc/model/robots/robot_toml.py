@@ -35,7 +35,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, Field, TypeAdapter, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import ModelError, problem, unknown
@@ -45,19 +45,10 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.urdf import Inertial, Tree, Triple, text_of
 from biped_adrc.model.robots.urdf_reader import read
 
-
-def _rising(ends: tuple[float, float]) -> tuple[float, float]:
-    """The ends (lower, upper) of a range themselves. Raises ValueError unless the lower one is less."""
-    if not ends[0] < ends[1]:
-        raise ValueError(f"found {list(ends)}, expected the lower angle first")
-    return ends
-
-
 _Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[_Number, Field(gt=0.0)]
 NotNegative = Annotated[_Number, Field(ge=0.0)]
 Names = tuple[str, ...]
-Ends = Annotated[tuple[_Number, _Number], AfterValidator(_rising)]
 Rotors = NotNegative | tuple[NotNegative, ...]
 """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
 
@@ -135,7 +126,7 @@ class RobotDescription(Shown):
     """Name of the preset that is used by default."""
     presets: Mapping[str, Preset]
     """Parameter sets by name."""
-    ranges: Mapping[str, Ends] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[_Number, _Number]] = field(default_factory=dict)
     """Lower and upper end [rad] by joint, for gait design alone; a walk is judged by what the URDF states."""
 
     @property
@@ -292,6 +283,8 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         for key, table in (("ranges", d.ranges), ("friction", {**d.viscous, **d.static})):
             if others := sorted(set(table) - set(d.joints)):
                 raise ValueError(f"{key} names {others}, the joints are {list(d.joints)}")
+        if falling := {x: list(ends) for x, ends in d.ranges.items() if not ends[0] < ends[1]}:
+            raise ValueError(f"ranges are {falling}, expected the lower angle first")
         if d.phase[-1] == 0.0:  # Theta is an absolute angle, so the pitch has a part in it
             raise ValueError(f"phase is {list(d.phase)}; the last number must not be 0")
         return d

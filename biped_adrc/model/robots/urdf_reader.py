@@ -144,8 +144,8 @@ def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[No
     shapes = zip(bodies, links.values(), strict=True)
     undrawn = [x.name for e, x in shapes if len(e.findall("visual")) > len(x.visuals)]
     parts = (child.tag for e in (robot, *bodies, *robot.findall("joint")) for child in e)
-    read = "link|joint|transmission|inertial|visual|origin|parent|child|axis|limit|dynamics"
-    other = Counter(tag for tag in parts if not re.fullmatch(read, tag))
+    used = "link|joint|transmission|inertial|visual|origin|parent|child|axis|limit|dynamics"
+    other = Counter(tag for tag in parts if not re.fullmatch(used, tag))
     # (kind, what was found, text): no note where it is 0 or empty
     notes = (
         ("assumed", yaw, f"direction: turned about z by {yaw:g} rad, so that axes are y"),
@@ -272,9 +272,7 @@ def _turns(
     return turns
 
 
-def _yaw(
-    joints: list[ET.Element], ends: list[tuple[str, str]], turns: Mapping[str, Array]
-) -> float:
+def _yaw(joints: list[ET.Element], ends: list[tuple[str, str]], turns: dict[str, Array]) -> float:
     """Angle [rad] by which the robot must turn about z, so that the axis of its first revolute or continuous
     joint is y or -y; 0 if it is so already, or the axis is not horizontal.
 
