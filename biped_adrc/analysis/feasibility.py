@@ -40,7 +40,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots.limits import SLIP, KnownLimits, Limits
+from biped_adrc.model.ground import SLIP, KnownLimits, Limits
 
 OUTCOMES = {
     "fell": "it fell",
