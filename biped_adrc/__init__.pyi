@@ -66,13 +66,13 @@ from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.model.biped import Biped as Biped
+from biped_adrc.model.ground import Limits as Limits
 from biped_adrc.model.ground import StepDown as StepDown
 from biped_adrc.model.ground import StepUp as StepUp
 from biped_adrc.model.ground import stepped as stepped
 from biped_adrc.model.ground import uneven_ground as uneven_ground
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf as biped_from_urdf
-from biped_adrc.model.robots.limits import Limits as Limits
 from biped_adrc.observers.base import ChainObserver as ChainObserver
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy

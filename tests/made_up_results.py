@@ -10,7 +10,7 @@ from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.half_step import AtTwoSteps
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
-from biped_adrc.model.robots.limits import KnownLimits
+from biped_adrc.model.ground import KnownLimits
 from biped_adrc.paper.pushes import MemberOutcome, MemberWalk, PushCell
 from biped_adrc.paper.runs import Order, Runs, Start
 from biped_adrc.paper.scenarios import (

@@ -22,8 +22,7 @@ from biped_adrc.analysis.feasibility import outcome_of
 from biped_adrc.analysis.ground_force import Nodes, demands
 from biped_adrc.core.errors import InputError
 from biped_adrc.gait.constraint import continued
-from biped_adrc.model.ground import StepUp, ground_axes
-from biped_adrc.model.robots.limits import KnownLimits
+from biped_adrc.model.ground import KnownLimits, StepUp, ground_axes
 from biped_adrc.studies.run import run_trials
 from biped_adrc.view.placement import joint_values
 

@@ -18,7 +18,7 @@ import pytest
 from typer.testing import CliRunner
 
 from biped_adrc.analysis.half_step import AtTwoSteps
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
+from biped_adrc.cli.app import ExitCode, app
 from biped_adrc.cli.study import lines
 from biped_adrc.core.processes import Timed
 from biped_adrc.core.verdict import at_least, at_most, below, between
@@ -160,7 +160,7 @@ def test_one_broken_claim_reaches_summary_and_exit_code(stubbed, tmp_path, ratio
     odd = replace(only, walked={"NPD": npd, "ADRC": scaled})
     stubbed(replace(found, pushed_recipe={"identified": [odd]}))
     done = CliRunner().invoke(app, ["reproduce", "--quick", "--out", str(tmp_path)])
-    assert done.exit_code == (0 if holds else EXIT_CHECK_FAILED), done.output
+    assert done.exit_code == (0 if holds else ExitCode.CHECK_FAILED), done.output
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["holds"] is holds
     said = next(row for row in summary["claims"] if "independently" in row["claim"])

@@ -38,8 +38,7 @@ from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
+from biped_adrc.model.ground import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits, ground_axes
 from biped_adrc.model.robots.urdf import Joint
 
 IMPULSE = "impulse"

@@ -40,7 +40,7 @@ from biped_adrc.gait.family import DECISION, GaitFamily, PolynomialMap, StepMap
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.limits import KnownLimits, Limits
+from biped_adrc.model.ground import KnownLimits, Limits
 
 RESERVE = StepLimits(friction=0.5, impulse_friction=0.5, torque=130.0, clearance=0.08, lift_off=0.5)
 """Limits of the library. A step between two members asks for more friction and torque than the members do."""

@@ -27,7 +27,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.shown import Shown
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots.limits import Limits
+from biped_adrc.model.ground import Limits
 
 OUTCOMES = {
     "fell": "it fell",

@@ -30,7 +30,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits, Limits
+from biped_adrc.model.ground import ENDS, WINDOW, KnownLimits, Limits
 
 RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""

@@ -24,8 +24,7 @@ from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.engine.kernels.load import compiled
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.limits import ENDS
+from biped_adrc.model.ground import ENDS, ground_axes
 
 
 @dataclass(frozen=True)

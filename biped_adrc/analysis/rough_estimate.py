@@ -40,8 +40,7 @@ from biped_adrc.engine.batch import BatchWalk, Case, simulate_many
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.status import Status
-from biped_adrc.model.ground import stepped
-from biped_adrc.model.robots.limits import ROUND_OFF, KnownLimits, Limits
+from biped_adrc.model.ground import ROUND_OFF, KnownLimits, Limits, stepped
 
 STEADY_RATES = (0.1, 1.9)
 """Least and largest root of y of the grid, as shares of that on level ground [1], which is in the middle."""

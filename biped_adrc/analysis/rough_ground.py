@@ -39,8 +39,8 @@ from biped_adrc.gait.constraint import VirtualConstraint, continued
 from biped_adrc.gait.design.rough import HIGHEST
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import KnownLimits, Limits
 from biped_adrc.model.planar_robot import robot_of
-from biped_adrc.model.robots.limits import KnownLimits, Limits
 
 CLIPPED = ("torque", "rate")
 """Limits at which motors clip, and the robot walks on."""

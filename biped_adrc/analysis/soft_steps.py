@@ -33,7 +33,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, Flags
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.robots.limits import SLIP
+from biped_adrc.model.ground import SLIP
 
 AT_CONE = 0.99
 """Share of mu F_N [1] from which on a tangential force is at the cone; the solver does not come closer."""

@@ -48,7 +48,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.limits import Limits
+from biped_adrc.model.ground import Limits
 
 VARIATIONAL, CENTRAL = "variational equation", "central differences"
 """Names of the methods."""

@@ -43,8 +43,8 @@ from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.constraint import VirtualConstraint, past_end
 from biped_adrc.gait.design.rough import HIGHEST
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import ENDS, KnownLimits
 from biped_adrc.model.planar_robot import robot_of
-from biped_adrc.model.robots.limits import ENDS, KnownLimits
 
 SIDE = 100
 """Number of heights to either side of 0."""

@@ -13,17 +13,13 @@ check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, pol
 import signal
 import sys
 import warnings
-from importlib import import_module
 
-from biped_adrc.cli.app import EXIT_INTERRUPTED, Lasting, app, errors
+# each of these modules adds its commands to the app when it is imported, in the order of the help
+from biped_adrc.cli import controller, gait, robot, study, walk  # noqa: F401
+from biped_adrc.cli.app import ExitCode, Lasting, app, errors
 from biped_adrc.core.errors import BipedError, OutputError
 
 __all__ = ["app", "main"]
-
-COMMANDS = ("controller", "gait", "robot", "study", "walk")
-"""Modules, each of which adds its commands to the app when it is imported, in the order of the help."""
-for _module in COMMANDS:
-    import_module(f"biped_adrc.cli.{_module}")
 
 
 def main() -> None:
@@ -62,7 +58,7 @@ def _run() -> int:
         # typer ends every command so, also one that is all right; its code is a number, None (0) or a text (1)
         code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
     except KeyboardInterrupt:
-        code = EXIT_INTERRUPTED
-    if code == EXIT_INTERRUPTED:
+        code = ExitCode.INTERRUPTED
+    if code == ExitCode.INTERRUPTED:
         errors.say("interrupted; what was already written is complete")
     return code

@@ -16,6 +16,7 @@ import shlex
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from enum import IntEnum
 from io import TextIOWrapper
 from pathlib import Path
 from typing import Annotated, Any, TextIO, TypeVar
@@ -29,9 +30,16 @@ from rich.table import Column, Table
 import biped_adrc
 from biped_adrc.core.files import keep_inputs, one_line, output_path
 
-EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
-"""Exit codes beside those of the errors: a check does not hold, the robot fell, Ctrl-C."""
 _P = TypeVar("_P", Path, Path | None)
+
+
+class ExitCode(IntEnum):
+    """Exit codes beside those of the errors: a check does not hold, the robot fell, Ctrl-C."""
+
+    CHECK_FAILED = 1
+    FELL = 4
+    INTERRUPTED = 130
+
 
 app = typer.Typer(
     add_completion=False,
@@ -94,6 +102,13 @@ class Terminal(Console):
         """Print a line for each file that was written; none for None."""
         for path in filter(None, paths):
             self.say(f"written to {path}")
+
+    def draw(self, path: Path, figure: Any) -> None:
+        """Write a figure of matplotlib, and print a line for the file."""
+        from biped_adrc.view.style import write_figure
+
+        write_figure(path, figure)
+        self.written(path)
 
     def table(
         self, header: Iterable[str | Column], rows: Iterable[Iterable[str]], **style: Any

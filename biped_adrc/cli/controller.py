@@ -24,12 +24,7 @@ from biped_adrc.core.types import PlainRecord
 
 
 @app.command("observer")
-@options(
-    "observer",
-    *WALKS,
-    *("period", "poles", "bandwidth", "order"),
-    period="1.5 ms, RABBIT's",
-)
+@options("observer", *WALKS, "period", "poles", "bandwidth", "order", period="1.5 ms, RABBIT's")
 def observer_command(
     values: PlainRecord, sets: list[str] | None = None, out: Path | None = None
 ) -> None:
@@ -86,15 +81,8 @@ def observer_command(
     )
     if out is not None:
         from biped_adrc.view.plots.figures import gang_figure
-        from biped_adrc.view.style import write_figure
 
-        write_figure(out, gang_figure(gang, title))
-        console.written(out)
-
-
-SLOW = 10.0
-"""Growth rate [1/s] above which an exported controller counts as unstable by itself: several integrators in a
-row, which do not grow, have computed rates below this, from round-off."""
+        console.draw(out, gang_figure(gang, title))
 
 
 @app.command("export")
@@ -130,7 +118,8 @@ def export_command(
     # rate [1/s] at which the controller's own state grows while it measures the same q and v at all sample
     # instants, those at the start of the gait (on_orbit)
     scene = RobotAndGait.of(s)
-    if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
+    # several integrators in a row, which do not grow, have computed rates below 10 /s, from round-off
+    if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > 10.0:
         console.say(
             f"by itself this controller is unstable ({growth:.0f} /s): compare it in closed loop, not on a log"
         )

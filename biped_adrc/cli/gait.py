@@ -59,7 +59,11 @@ def gait_design(
     others = [text for text in sets or () if text not in of_limits]
     limits = with_sets(ba.StepLimits, [text.removeprefix("limits.") for text in of_limits])
     if rough is not None:
-        limits = replace(limits, rough=_height(rough))
+        try:
+            height = quantity(rough, "m")
+        except ValueError as error:
+            raise InputError(f"--rough: {error}") from None
+        limits = replace(limits, rough=height)
     # --steps: a family; --speeds alone: a library; neither: one gait
     if steps is not None:
         if others:
@@ -83,14 +87,6 @@ def gait_design(
     path = out or Path(result.gait.file_name)
     result.gait.save(path)
     console.written(path)
-
-
-def _height(text: str) -> float:
-    """A height [m] from a text such as "40 mm". Raises InputError for any other text."""
-    try:
-        return quantity(text, "m")
-    except ValueError as error:
-        raise InputError(f"--rough: {error}") from None
 
 
 def _design(biped: ba.Biped, request: GaitRequest) -> DesignedGait:
@@ -209,10 +205,8 @@ def gait_show(
     _say_rough(biped, result)
     if plot is not None:
         from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
-        from biped_adrc.view.style import write_figure
 
-        write_figure(plot, zero_dynamics_figure(report))
-        console.written(plot)
+        console.draw(plot, zero_dynamics_figure(report))
 
 
 def _say_rough(biped: ba.Biped, gait: ba.Gait) -> None:

@@ -22,9 +22,8 @@ from typing import TYPE_CHECKING
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, FIGURES, console, errors, group, inputs, target
+from biped_adrc.cli.app import FIGURES, ExitCode, console, errors, group, inputs, target
 from biped_adrc.cli.options import options, scenario_from, with_sets
-from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
@@ -81,14 +80,12 @@ def robot_check(
     derived = _derived(file, feet, actuated, torque, sets)
     _explain(derived)
     from biped_adrc.view.from_the_side.check_figure import check_figure
-    from biped_adrc.view.style import write_figure
 
-    write_figure(plot, check_figure(derived.biped))
-    console.written(plot)
+    console.draw(plot, check_figure(derived.biped))
     if derived.broken:
         for check in derived.broken:
             errors.say(f"error: {check}")
-        raise typer.Exit(EXIT_CHECK_FAILED)
+        raise typer.Exit(ExitCode.CHECK_FAILED)
 
 
 @robot_app.command("new")
@@ -103,10 +100,8 @@ def robot_new(
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF or MJCF, for Biped.load("FOLDER/robot.toml")."""
     check_folder(out)
-    derived = _derived(file, feet, actuated, torque, sets)
     # nothing is written for a model that breaks a law of mechanics
-    if derived.broken:
-        raise ModelError(f"'{file}': {'; '.join(map(str, derived.broken))}")
+    derived = _derived(file, feet, actuated, torque, sets).sound()
     _explain(derived)
     console.written(derived.write(out))
 

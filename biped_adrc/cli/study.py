@@ -18,14 +18,7 @@ from typing import Any
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import (
-    EXIT_CHECK_FAILED,
-    EXIT_INTERRUPTED,
-    app,
-    command_line,
-    console,
-    target,
-)
+from biped_adrc.cli.app import ExitCode, app, command_line, console, target
 from biped_adrc.cli.options import options
 from biped_adrc.core.errors import SimulationError
 
@@ -72,7 +65,7 @@ def study(
             signal.signal(each, signal.SIG_IGN)
         begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
         console.say(f"{begun} {out}; the same command goes on from there")
-        raise typer.Exit(EXIT_INTERRUPTED) from None
+        raise typer.Exit(ExitCode.INTERRUPTED) from None
     # the results by case, remarks, and of a search the values that it chose
     console.table(headings(done), (texts(line, short=True) for line in done.table()))
     for note in done.notes:
@@ -89,10 +82,6 @@ def study(
     # NO_WALK: statuses of rows for which no walk could be made, such as values that do not fit together
     if statuses.keys() <= {*NO_WALK}:
         raise SimulationError("no walk of this study could be made")
-
-
-SHOWN = 5
-"""Checks that do not hold and are said by name; more are in the report."""
 
 
 @app.command()
@@ -122,18 +111,18 @@ def reproduce(
         summary = run(plan, out, command_line(), workers, progress)
     console.say("\n".join(lines(summary, out)))
     if not summary["holds"]:
-        raise typer.Exit(EXIT_CHECK_FAILED)
+        raise typer.Exit(ExitCode.CHECK_FAILED)
 
 
 def lines(summary: dict[str, Any], out: Path) -> list[str]:
     """The lines that `reproduce` prints. summary: the content of summary.json. out: folder of the report.
 
-    They are the number of checks that hold, at most SHOWN that do not, the tally of claims, the main findings,
+    They are the number of checks that hold, at most 5 that do not, the tally of claims, the main findings,
     what was left out, and where the report is.
     """
     checks = summary["checks"]
     broken = [check for check in checks if not check["holds"]]
-    sentences = [f"does not hold: {x['name']}: {x['value']} {x['limit']}" for x in broken[:SHOWN]]
+    sentences = [f"does not hold: {x['name']}: {x['value']} {x['limit']}" for x in broken[:5]]
     left_out = summary["left_out"]
     return [
         f"{len(checks) - len(broken)} of {len(checks)} checks hold",

@@ -30,7 +30,7 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Column
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_FELL, FIGURES, app, console, inputs, target
+from biped_adrc.cli.app import FIGURES, ExitCode, app, console, inputs, target
 from biped_adrc.cli.options import WALKS, options, scenario_from, with_sets
 from biped_adrc.core.errors import InputError, RaisedError
 from biped_adrc.core.types import Array, PlainRecord
@@ -66,7 +66,7 @@ def _walk(
     s: ba.Scenario, limits: ba.Limits, end_infeasible: bool, out: Path | None, log: Path | None
 ) -> None:
     """Walk a scenario, print the walk, and write it to `out` and `log`; None for no file. Ends the command with
-    EXIT_FELL if the robot fell.
+    ExitCode.FELL if the robot fell.
 
     limits: of ground and motors, for the judgement of each step; with end_infeasible the walk is cut where it
     first breaks one. A walk with motors is made again at half the integration step, for the error of
@@ -111,7 +111,7 @@ def _walk(
         console.say(f"note: rounding decides digits of this walk: {away}, and so at any step")
     console.written(out, log)
     if not full.trajectory.status.ok:
-        raise typer.Exit(EXIT_FELL)
+        raise typer.Exit(ExitCode.FELL)
 
 
 def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
@@ -261,12 +261,10 @@ def plot(
     """Draw the signals of a run."""
     from biped_adrc.scenario.stored import load_walks
     from biped_adrc.view.plots.figures import draw
-    from biped_adrc.view.style import write_figure
 
     runs = [run, *(beside or [])]
     out = target(out, FIGURES, runs)
-    write_figure(out, draw(figure, load_walks(runs)))
-    console.written(out)
+    console.draw(out, draw(figure, load_walks(runs)))
 
 
 @app.command("play")

@@ -37,7 +37,6 @@ from biped_adrc.model.biped import Biped
 
 _KNEES = (2, 3)  # places of the knees among the paper's coordinates
 _PHASE = (1.0, 0.0, 0.5, 0.0, 1.0)  # Theta = q5 + q1 + q3 / 2
-_RELABELLING = (1, 0, 3, 2, 4)  # q+ = q-[_RELABELLING]: the impact exchanges the legs
 
 
 @dataclass(frozen=True)
@@ -99,16 +98,6 @@ OWN = "own"
 """Name of the convention of a robot's own coordinates, whatever they are."""
 
 
-def own_convention(biped: Biped) -> Convention:
-    """The convention of a robot's own coordinates: `to_paper` is the identity, the outputs are its p actuated
-    joints, and the phase is that of its record (robot.toml), with its sign (`sense` 1).
-    """
-    n, p, d = biped.n, biped.p, biped.description
-    same = AngleMap(np.eye(n), np.zeros(n))
-    # name, coordinates, map to the paper's angles, outputs, sense, row of the phase
-    return Convention(OWN, d.joints, same, np.eye(p, n), 1.0, np.array(d.phase))
-
-
 def of_the_paper(biped: Biped) -> bool:
     """Whether phase and relabelling (exchange of the legs' coordinates at impact) of a robot are the paper's,
     with knees (n = 5) or without (n = 3)."""
@@ -117,22 +106,26 @@ def of_the_paper(biped: Biped) -> bool:
     # without knees, the coordinates 2 and 3 of the paper are left out
     paper = [i for i in range(5) if biped.n == 5 or i not in _KNEES]
     # the paper's relabelling exchanges the hips and the knees, its phase is Theta = q5 + q1 + q3 / 2
-    R = np.eye(5)[list(_RELABELLING)][np.ix_(paper, paper)]
+    R = np.eye(5)[[1, 0, 3, 2, 4]][np.ix_(paper, paper)]
     same = np.array_equal(biped.R, R) and np.array_equal(biped.phase, np.array(_PHASE)[paper])
     # relabelling is q+ = R q- + r: of q- = 0 it gives r, which is zero in the paper
     return bool(same and not np.any(biped.relabel(np.zeros(biped.n))))
 
 
 def layout_of(name: str, biped: Biped) -> Convention:
-    """The convention of this name for a robot; the name "own" means the robot's coordinates as they are.
+    """The convention of this name for a robot; the name "own" means the robot's coordinates as they are:
+    `to_paper` is the identity, the outputs are its p actuated joints, and the phase is that of its record
+    (robot.toml), with its sign (`sense` 1).
 
     Raises GaitError for an unknown name, or a robot with other coordinates or another phase.
     """
+    n, p, d = biped.n, biped.p, biped.description
     if name == OWN:
-        return own_convention(biped)
-    result = convention(name, knees=biped.n == 5)
+        same = AngleMap(np.eye(n), np.zeros(n))
+        # name, coordinates, map to the paper's angles, outputs, sense, row of the phase
+        return Convention(OWN, d.joints, same, np.eye(p, n), 1.0, np.array(d.phase))
+    result = convention(name, knees=n == 5)
     if not of_the_paper(biped):
-        d = biped.description
         raise GaitError(
             f"robot '{d.name}' has the coordinates {list(d.joints)} and the phase {list(d.phase)}, which are "
             f"not laid out as convention '{name}' has them; take convention 'own', the coordinates of its "

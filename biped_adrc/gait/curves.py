@@ -74,11 +74,6 @@ class Curve(Shown, ABC):
     def ramp(cls, degree: int, start: float, end: float) -> Array:
         """Coefficients (M + 1,) in this basis of the straight line start + s (end - start); degree: M."""
 
-    def shifted(self, b: Array) -> Array:
-        """Coefficients (p, M + 1) of h(s) + b, for b (p,) [rad]."""
-        # the ramp from 1 to 1 is the constant 1
-        return np.asarray(self.coefficients + np.outer(b, self.ramp(self.degree, 1.0, 1.0)))
-
     @property
     def power_coefficients(self) -> Array:
         """Coefficients a (p, K) of h(s) = sum_k a_k s^k, for a curve of one piece.

@@ -37,11 +37,12 @@ import numpy as np
 from scipy.optimize import linprog
 
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import data_file, output_path, plain, reading, write_json
+from biped_adrc.core.files import output_path, plain, reading, write_json
 from biped_adrc.core.part import SETUP, Part, setup
 from biped_adrc.core.types import Array, freeze, read_only
 from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
 from biped_adrc.gait.curves import Bezier, bernstein_to_power
+from biped_adrc.gait.gait import stored_file
 from biped_adrc.model.biped import Biped
 
 _FORMAT = "biped_adrc family 4"
@@ -220,16 +221,7 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
     Raises GaitError for one that is not there, is damaged, or was made for another robot.
     """
     robot, preset = biped.description.name, biped.preset
-    path = Path(family)
-    if path.suffix.lower() != ".json":
-        path = data_file("gaits", robot, "families", f"{family}-{preset}.json")
-        if not path.is_file():  # a missing file that was named by its path is reported by `reading`
-            stored = data_file("gaits", robot, "families").glob(f"*-{preset}.json")
-            known = sorted(x.stem.removesuffix(f"-{preset}") for x in stored)
-            raise GaitError(
-                f"there is no family '{family}' for robot '{robot}', preset '{preset}'; stored are {known}, "
-                "and biped-adrc gait design --speeds --steps makes one"
-            )
+    path = stored_file("family", family, biped, "families")
     with reading("family file", path, GaitError):
         result = _from_record(json.loads(path.read_text(encoding="utf-8")))
     if (result.robot, result.preset) != (robot, preset):

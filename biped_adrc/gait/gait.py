@@ -182,12 +182,31 @@ class Gait(Frozen):
         write_json(record, output_path(path, (".json",)))
 
 
-def gait_names(robot: str, preset: str) -> tuple[str, ...]:
-    """Names of the stored gaits of a robot and preset, sorted; files are called NAME-PRESET.json."""
+def gait_names(robot: str, preset: str, *folder: str) -> tuple[str, ...]:
+    """Names of the stored gaits of a robot and preset, or of what is in a folder below them, sorted; files are
+    called NAME-PRESET.json.
+    """
     end = f"-{preset}.json"
-    # the name of the file does not matter here, only its folder
-    files = data_file("gaits", robot, end).parent.glob("*.json")
+    files = data_file("gaits", robot, *folder).glob("*.json")
     return tuple(sorted(x.name.removesuffix(end) for x in files if x.name.endswith(end)))
+
+
+def stored_file(kind: str, name: str | Path, biped: Biped, *folder: str) -> Path:
+    """The file of a stored gait, or of what `kind` names, for this robot and preset, by name; or the path
+    itself of a .json file, which need not be there. Raises GaitError with the known names.
+    """
+    path, robot, preset = Path(name), biped.description.name, biped.preset
+    if path.suffix.lower() == ".json":
+        return path
+    path = data_file("gaits", robot, *folder, f"{name}-{preset}.json")
+    if not os.path.isfile(path):
+        known = list(gait_names(robot, preset, *folder))
+        choose = f"choose one of {known}" if known else "none is stored: design one"
+        raise GaitError(
+            f"there is no {kind} '{name}' for robot '{robot}', preset '{preset}'; {choose}, or give the path "
+            "of a .json file, which 'biped-adrc gait design' writes"
+        )
+    return path
 
 
 def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait:
@@ -202,17 +221,7 @@ def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait
     """
     check_part(gait, "gait", str, Path)
     check_part(biped, "biped", Biped)
-    path = Path(gait)
-    if path.suffix.lower() != ".json":
-        robot, preset = biped.description.name, biped.preset
-        path = data_file("gaits", robot, f"{gait}-{preset}.json")
-        if not os.path.isfile(path):
-            known = list(gait_names(robot, preset))
-            choose = f"choose one of {known}" if known else "none is stored: design one"
-            raise GaitError(
-                f"there is no gait '{gait}' for robot '{robot}', preset '{preset}'; {choose}, or give the path "
-                "of a .json file"
-            )
+    path = stored_file("gait", gait, biped)
     with reading("gait file", path, GaitError):
         result = _from_record(json.loads(path.read_text(encoding="utf-8"))).check(biped)
         return result if other_robot else result.check_robot(biped)

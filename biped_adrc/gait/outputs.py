@@ -143,17 +143,12 @@ class FunctionOutputs(Outputs):
         y = returned(self.function(q), None, self, "function")
         # dy/dq_i along each unit vector e: a central difference of order 4 over points _H = 4e-3 rad apart
         J = np.array([_along(self.function, q, _H * e, _SLOPE) / _H for e in np.eye(len(q))]).T
-        return OutputPoint(y, J @ v, J, self._bend(q, v))
-
-    def _bend(self, q: Array, v: Array) -> Array:
-        """The drift J' v (p,), with J' = dJ/dt: the second derivative of y along v, in the unit of y per s^2.
-
-        Its points q + k h v are _H apart, k = -2 .. 2, whatever the speed |v| is; for v = 0 the drift is 0.
-        """
-        # _BEND: weights of the central difference of order 4 for a second derivative
+        # the drift J' v, with J' = dJ/dt, is the second derivative of y along v; its points q + k h v, with k
+        # from -2 to 2, are _H apart whatever the speed |v| is; for v = 0 the drift is 0
         speed = math.sqrt(v.dot(v))
         h = _H / np.where(speed > 0.0, speed, 1.0)
-        return np.where(speed > 0.0, _along(self.function, q, h * v, _BEND) / h**2, 0.0)
+        drift = np.where(speed > 0.0, _along(self.function, q, h * v, _BEND) / h**2, 0.0)
+        return OutputPoint(y, J @ v, J, drift)
 
 
 def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> Array:

@@ -36,7 +36,6 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid, series
 from biped_adrc.model.ground import Slope, ground_axes
 
-LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
 PASSING = "V_max"
 """Name of the lower bound by the highest point of V_zero, which the step has to pass."""
 UNLIMITED = "no limit"
@@ -97,26 +96,16 @@ def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
     upper = Bound(math.inf, UNLIMITED, math.nan)
     # sign 1: the lower bound of zeta by a limit, sign -1: the upper one; the strictest of all limits stay
     for margin in _margins(orbits, DomainLimits() if limits is None else limits):
-        lower = max(lower, _end(orbits, margin, 1.0), key=lambda bound: bound.zeta)
-        upper = min(upper, _end(orbits, margin, -1.0), key=lambda bound: bound.zeta)
+        lower = max(lower, _end(orbits, *margin, 1.0), key=lambda bound: bound.zeta)
+        upper = min(upper, _end(orbits, *margin, -1.0), key=lambda bound: bound.zeta)
     return Domain(lower, upper)
 
 
-class Margin(NamedTuple):
-    """One limit as the condition still + moving Theta'^2 > 0 on the distance to it, at the K Gauss nodes of the
-    zero dynamics: a force [N] or a torque [N m].
-    """
-
-    cause: str
-    """Name of the limit, as in `Bound.cause`."""
-    still: Array
-    """Distance to the limit at rest (K,)."""
-    moving: Array
-    """Change of that distance with Theta'^2 (K,), per rad^2/s^2."""
-
-
-def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
-    """All limits as conditions still + moving Theta'^2 > 0 (`Margin`), one for each sign where a limit has two.
+def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[tuple[str, Array, Array]]:
+    """All limits as conditions still + moving Theta'^2 > 0 on the distance to the limit, a force [N] or a
+    torque [N m]: name of the limit, as in `Bound.cause`, the distance at rest (K,), and its change with
+    Theta'^2 (K,), per rad^2/s^2, at the K Gauss nodes of the zero dynamics; one for each sign where a limit has
+    two.
 
     At one Theta forces and torques are affine in Theta'^2, so the model at two rates, 0 and 1 rad/s, gives them
     at all speeds.
@@ -128,26 +117,27 @@ def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
     F_0, F_1 = (np.array([result[2] for result in rows]) for rows in (rest, moving))
     along, across = ground_axes(limits.slope)  # unit vectors along the ground and out of it
     # of each condition row @ F > 0 on the ground reaction F: its name and row
-    rows = [(LIFT_OFF, across)]
+    rows = [("lift-off", across)]
     if limits.friction is not None:
-        rows += [(FRICTION, limits.friction * across + sign * along) for sign in (-1.0, 1.0)]
-    result = [Margin(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
+        rows += [("friction", limits.friction * across + sign * along) for sign in (-1.0, 1.0)]
+    result = [(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
     if limits.torque is not None:
         for j in range(zero.biped.p):
             for sign in (-1.0, 1.0):
                 still = limits.torque + sign * u_0[:, j]
-                result.append(Margin(TORQUE, still, sign * (u_1 - u_0)[:, j]))
+                result.append(("torque", still, sign * (u_1 - u_0)[:, j]))
     return result
 
 
-def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
-    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin, still + moving Theta'^2 > 0: of all
+def _end(orbits: ZeroOrbits, cause: str, at_rest: Array, change: Array, sign: float) -> Bound:
+    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin, at_rest + change Theta'^2 > 0: of all
     Theta of a step the strictest zeta = -A / B at which A + B zeta = 0.
 
-    The bound is -inf (lower) or inf (upper) where the margin limits zeta nowhere from this side.
+    cause, at_rest, change: of `_margins`. The bound is -inf (lower) or inf (upper) where the margin limits zeta
+    nowhere from this side.
     """
     # as functions of Theta, by Legendre series through the values at the nodes
-    still, moving = series(orbits.zero, margin.still), series(orbits.zero, margin.moving)
+    still, moving = series(orbits.zero, at_rest), series(orbits.zero, change)
 
     def reach(theta: Array) -> Array:
         """sign * zeta at which the margin is 0, at each theta; -inf where the margin does not limit this end,
@@ -173,4 +163,4 @@ def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
         )
         if -best.fun > most:
             where, most = float(best.x), -float(best.fun)
-    return Bound(sign * most, margin.cause, where)
+    return Bound(sign * most, cause, where)

@@ -38,8 +38,6 @@ from biped_adrc.model.biped import Biped
 
 JointCurve = Callable[[float], tuple[Array, Array, Array]]
 """A function of Theta [rad] that returns h [rad], dh/dTheta, d2h/dTheta2, each (p,)."""
-_NODES = 40
-"""Gauss nodes over a step, enough for curves of degree 6 to be integrated to round-off."""
 
 
 @lru_cache(maxsize=8)
@@ -117,11 +115,12 @@ class ZeroDynamics(Shown):
         cls,
         biped: Biped,
         constraint: VirtualConstraint,
-        nodes: int = _NODES,
+        nodes: int = 40,
         h: JointCurve | None = None,
     ) -> ZeroDynamics:
-        """Evaluate the model along the constraint at `nodes` Gauss nodes. h: another curve that a step follows
-        between Theta+ and Theta- of the constraint; None for its own.
+        """Evaluate the model along the constraint at `nodes` Gauss nodes; 40 are enough for curves of degree 6
+        to be integrated to round-off. h: another curve that a step follows between Theta+ and Theta- of the
+        constraint; None for its own.
 
         Raises InputError where biped is no `Biped` or constraint no `VirtualConstraint`.
         """

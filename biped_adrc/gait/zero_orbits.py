@@ -50,8 +50,6 @@ _GRID = 401
 """Number of phases at which signs and extremes are searched; zeros between two of them are then solved for."""
 _DURATION = 1e-6
 """Largest relative error [1] of a duration, by the error estimate of its quadrature."""
-_SADDLE = 1e-6
-"""Largest |dV_zero/dTheta| at the phase of V_max, over that in the step [1], of an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:
@@ -148,20 +146,18 @@ class ZeroOrbits(Shown):
         Raises GaitError, with what to change, where there is no stable orbit.
         """
         d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
-        wrong = ""
+        why = ""
         if not d2 < 1.0:
-            wrong = (
-                f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster"
-            )
+            why = f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster"
         elif not V < 0.0:
-            wrong = f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step"
+            why = f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step"
         elif not self.existence < 0.0:
-            wrong = (
+            why = (
                 f"a step would begin {self.existence:.3g} {unit} short of the V_max = {self.v_max:.6g} that it "
                 f"has to pass at Theta = {self.theta_max:.4g} rad; lower the hip there or shorten the way"
             )
-        if wrong:
-            raise GaitError(f"the zero dynamics have no stable orbit: {wrong}")
+        if why:
+            raise GaitError(f"the zero dynamics have no stable orbit: {why}")
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:
@@ -263,11 +259,11 @@ class ZeroOrbits(Shown):
         domain, zeta = V_max / delta^2, it is 0 where the step comes to rest at V_max for ever.
         """
         if zeta == self.lowest:
-            # an equilibrium, where dV_zero/dTheta is 0 (below the share _SADDLE of its largest value), is
+            # an equilibrium, where dV_zero/dTheta is 0 (below the share 1e-6 of its largest value), is
             # approached and never passed; a V_max at an end of the step is left or reached in finite time
             slope = self.potential.deriv()
             largest = float(np.max(np.abs(slope(grid(self.zero)))))
-            if abs(float(slope(self.theta_max))) < _SADDLE * largest:
+            if abs(float(slope(self.theta_max))) < 1e-6 * largest:
                 return 0.0
         return self.step_length / self.period(zeta)
 

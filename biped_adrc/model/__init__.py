@@ -4,7 +4,7 @@ Numbers in parentheses, as (1), are those of equations in the paper.
 
 - `biped`       the planar biped, made of a robot's record and its two Pinocchio models
 - `robots`      URDF and record of a robot; `robot_import` a robot from a URDF alone
-- `ground`      slopes and steps
+- `ground`      slopes, steps and stones; what ground and motors can give, within which a walk is feasible
 - `pinned`      single support: the tree pinned at the stance foot, its inertia matrix and bias in (1)
 - `contact`     double support: the floating tree and the plastic impact (2)-(9)
 - `reduction`   the actuated joints alone (11)-(15): gain of the torques and total disturbance

@@ -41,19 +41,11 @@ from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.model.robots.robot_toml import (
-    RobotDescription,
-    Rotors,
-    check_planar,
-    load_description,
-)
+from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors, load_description
 from biped_adrc.model.robots.urdf import Inertial, Joint, Tree, absolute_angles, relabelling, unlike
 
 STICTION_SPEED = 0.05
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
-ACCURACY = 1e-6
-"""Largest relative round-off in D_s^-1 [1], the machine epsilon times the condition number of D_s; a robot
-whose feet have 1e-7 of the hip's mass has 1e-8."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +104,7 @@ class Biped(Shown):
         when the legs exchange their roles, neither the kinetic energy about the COM may change, nor the COM's
         height above one and the same foot.
         """
-        check_planar(self.tree, self.description)
+        self.description.check_planar(self.tree)
         check_numbers(self)
         q, v = 0.3 * np.arange(1.0, self.n + 1.0), np.cos(np.arange(float(self.n)))
         x, w = self.relabel(q), self.R @ v
@@ -432,8 +424,8 @@ def check_numbers(biped: Biped) -> None:
 
     Masses and lengths are checked one by one where a file is read; this finds those that do not fit together,
     such as a mass beside another that is 1e20 times as large. Well conditioned: the largest eigenvalue times
-    the machine epsilon is at most ACCURACY times the least. Raises ModelError with what to look for in the
-    URDF.
+    the machine epsilon, the relative round-off in D_s^-1, is at most 1e-6 times the least; a robot whose feet
+    have 1e-7 of the hip's mass has 1e-8. Raises ModelError with what to look for in the URDF.
     """
     random, n = np.random.default_rng(5), biped.n
     where = f"'{biped.tree.source}', robot '{biped.description.name}'"
@@ -443,7 +435,7 @@ def check_numbers(biped: Biped) -> None:
             D, Omega = biped.inertia(q), biped.bias(q, v)
             # least, most = (-1, 0) fails the test below
             least, most = np.linalg.eigvalsh(D)[[0, -1]] if np.all(np.isfinite(D)) else (-1.0, 0.0)
-            fits = most * np.finfo(float).eps <= ACCURACY * least
+            fits = most * np.finfo(float).eps <= 1e-6 * least
             try:
                 fits = fits and np.all(np.isfinite(np.concatenate((Omega, *biped.impact(q, v)))))
             except SingularError:

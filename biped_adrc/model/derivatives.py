@@ -33,9 +33,6 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import jacobian, point, turned
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
-_Symbols = NDArray[np.object_]
-"""A NumPy array whose entries are CasADi scalars, as the planar model takes it."""
-
 
 class AccelerationDerivatives(NamedTuple):
     """Partial derivatives of q'' = D_s^-1 (force + friction - Omega), each (n, n)."""
@@ -83,14 +80,14 @@ def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
 
 
 # -- the planar model as CasADi expressions --------------------------------------------------------
-def entries(x: ca.SX) -> _Symbols:
+def entries(x: ca.SX) -> NDArray[np.object_]:
     """Convert a CasADi column of m symbols to a NumPy array (m,) of CasADi scalars; the inverse of
     `together`.
     """
     return np.fromiter(ca.vertsplit(x), dtype=object)
 
 
-def together(values: _Symbols) -> ca.SX:
+def together(values: NDArray[np.object_]) -> ca.SX:
     """Convert a NumPy array (m,) or (m, k) of CasADi scalars to one CasADi column or matrix."""
     rows = np.reshape(values, (len(values), -1))
     return ca.vertcat(*(ca.horzcat(*map(ca.SX, row)) for row in rows))
@@ -105,7 +102,7 @@ def pose_function(robot: PlanarRobot) -> ca.Function:
     n, K = robot.n, robot.K
     q = ca.SX.sym("q", n)
     x = entries(q)
-    rest: _Symbols = np.zeros(n, dtype=object)
+    rest: NDArray[np.object_] = np.zeros(n, dtype=object)
     t, A = turned(robot.A, x), robot.A
     D, _ = robot.inertia_and_bias(x, rest)  # D_s does not depend on the rates
     # w: the vectors d of all COMs, weighted by the masses and summed; foot: those of the swing foot

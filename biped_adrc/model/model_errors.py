@@ -10,9 +10,9 @@ thighs. Twins are a joint and its counterpart in the other leg. `ModelErrors.app
 controller keeps the robot without errors as nominal model.
 """
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from math import inf, isfinite
 from typing import Annotated, Self
 
 import numpy as np
@@ -23,14 +23,10 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 
-FACTORS = ("mass", "com", "inertia")
-"""Names of the errors of bodies, in the order in which they are drawn."""
 # ranges of fields {name: error}: finite errors; those that leave more than nothing; those that leave 0 or more
-FINITE = each("finite numbers by name", math.isfinite)
-ABOVE = each(
-    "finite numbers above -1 by name, such as {'torso': 0.2}", lambda e: -1.0 < e < math.inf
-)
-NOT_BELOW = each("finite numbers, none below -1, by name", lambda e: -1.0 <= e < math.inf)
+FINITE = each("finite numbers by name", isfinite)
+ABOVE = each("finite numbers above -1 by name, such as {'torso': 0.2}", lambda e: -1.0 < e < inf)
+NOT_BELOW = each("finite numbers, none below -1, by name", lambda e: -1.0 <= e < inf)
 
 
 @dataclass(frozen=True)
@@ -90,24 +86,14 @@ class ModelErrors(Checked, Shown):
         return cls(friction=dict.fromkeys(joints or ["its joints"], error))
 
     def apply(self, biped: Biped) -> Biped:
-        """A copy of `biped` with these errors, the plant. Raises ModelError for an unknown body or joint, or
-        legs that become unequal.
+        """A copy of `biped` with these errors, the plant. Raises ModelError for an unknown body or joint, for a
+        joint without friction, twin joints that have not the same error, or legs that become unequal.
         """
-        # FACTORS: mass, com, inertia
-        factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in FACTORS}
-        wrong = replace(biped, tree=biped.scaled(factors))
-        if self.friction:
-            # _rubbed: a copy with the errors of friction too
-            wrong = self._rubbed(wrong)
-        return wrong.check()
-
-    def _rubbed(self, biped: Biped) -> Biped:
-        """A copy of the biped with its viscous and static friction multiplied by 1 + e.
-
-        Raises ModelError for a joint without friction, and for twin joints that have not the same error.
-        """
+        errors = {"mass": self.mass, "com": self.com, "inertia": self.inertia}
+        factors = {k: {x: 1.0 + e for x, e in each.items()} for k, each in errors.items()}
+        tree, d = biped.scaled(factors), biped.description
         # pairs: the joints with friction, twins together, a joint without a twin alone
-        d, pairs = biped.description, list(_rubbing(biped))
+        pairs = list(_rubbing(biped))
         unlike = [pair for pair in pairs if len({self.friction.get(name) for name in pair}) > 1]
         if unlike or set(self.friction) - {name for pair in pairs for name in pair}:
             raise ModelError(
@@ -119,7 +105,8 @@ class ModelErrors(Checked, Shown):
             {name: (1.0 + self.friction.get(name, 0.0)) * x for name, x in coefficients.items()}
             for coefficients in (d.viscous, d.static)
         )
-        return replace(biped, description=replace(d, viscous=viscous, static=static))
+        d = replace(d, viscous=viscous, static=static)
+        return replace(biped, tree=tree, description=d).check()
 
 
 def impact_error(seed: int, spread: float, n: int) -> Array:

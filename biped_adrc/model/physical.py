@@ -35,16 +35,13 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.contact import Impact, LinkMotion
 from biped_adrc.model.pinned import XZ, frame_index
 
-LIMIT = 1e-9
-"""Largest relative gap of a law; double precision leaves about 1e-12."""
-
 
 def physical_checks(biped: Biped) -> tuple[Check, ...]:
-    """Check the laws at 20 random states: one `Check` per law, which holds if its relative gap is at most LIMIT
-    everywhere. A NaN counts as violated.
+    """Check the laws at 20 random states: one `Check` per law, which holds if its relative gap is at most 1e-9
+    everywhere; double precision leaves about 1e-12. A NaN counts as violated.
     """
     laws = largest_gaps(biped, 20, 0)  # 20 states, drawn with the seed 0
-    return tuple(at_most(law, "law", gap, LIMIT) for law, gap in laws.items())
+    return tuple(at_most(law, "law", gap, 1e-9) for law, gap in laws.items())
 
 
 def largest_gaps(biped: Biped, states: int, seed: int) -> dict[str, float]:

@@ -60,12 +60,10 @@ def fitted(A: Array, places: Callable[[Array], Array], exact: float) -> ComplexA
 
 # -- laws, for numbers and symbols -----------------------------------------------------------------
 class Turned(NamedTuple, Generic[Numbers]):
-    """Cosines and sines of the absolute angles, each (n,), dimensionless."""
+    """Cosines c and sines s of the absolute angles a, each (n,), dimensionless."""
 
     c: Numbers
-    """cos a."""
     s: Numbers
-    """sin a."""
 
 
 def turned(A: Indices | Array, q: Numbers) -> Turned[Numbers]:
@@ -84,11 +82,6 @@ def point(t: Turned[Numbers], re: Array, im: Array) -> tuple[Numbers, Numbers]:
 def jacobian(A: Indices | Array, t: Turned[Numbers], re: Array, im: Array) -> Numbers:
     """Jacobian d(x, z)/dq (2, n) [m] of a point with vectors d = re + i im (n,) [m]; A (n, n): of `turned`."""
     return np.array([A.T @ (-(re * t.s) - im * t.c), A.T @ (re * t.c - im * t.s)])
-
-
-POINT_EXACT = 1e-10
-"""Parts of the vectors d of a `LinkPoint` below this [1], relative to the point's largest distance from the
-stance foot, are round-off."""
 
 
 class LinkPoint(NamedTuple):
@@ -149,6 +142,6 @@ def hip_point(biped: Biped) -> LinkPoint:
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array) -> LinkPoint:
     """Fit a `LinkPoint` to its place (x, z) [m] as a function of q (n,) [rad]; turn: b (n,) of its link."""
     _, _, A = biped.pinned.bodies()
-    # POINT_EXACT: smaller parts of d are round-off
-    (d,) = fitted(A, place, POINT_EXACT)
+    # parts of d below 1e-10 of the point's largest distance from the stance foot are round-off
+    (d,) = fitted(A, place, 1e-10)
     return LinkPoint(np.ascontiguousarray(A), *per_link(d), turn)

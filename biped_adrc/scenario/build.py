@@ -41,9 +41,8 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import SoftGround, Steps, Stones, stepped, uneven_ground
+from biped_adrc.model.ground import Limits, SoftGround, Steps, Stones, stepped, uneven_ground
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.push import RANDOM, Push
 from biped_adrc.scenario.records import Misfit, all_taken, named_part

@@ -55,8 +55,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.limits import Limits
+from biped_adrc.model.ground import Limits, ground_axes
 from biped_adrc.scenario.edges import remarks
 from biped_adrc.scenario.integration import WalkPart, rounding
 from biped_adrc.scenario.plain_parts import Writer

@@ -48,7 +48,7 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.robots.limits import Limits
+from biped_adrc.model.ground import Limits
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.integration import check_start, default_method, methods_of
 from biped_adrc.scenario.recording import Walk

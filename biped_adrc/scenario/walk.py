@@ -33,7 +33,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
-from biped_adrc.model.robots.limits import Limits
+from biped_adrc.model.ground import Limits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_around, soft_loop
 from biped_adrc.scenario.integration import WalkPart, check_start, in_parts, methods_of, refined
 from biped_adrc.scenario.recording import Outcome, Walk

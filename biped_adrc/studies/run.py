@@ -46,7 +46,7 @@ from biped_adrc.core.registry import FOLDERS
 from biped_adrc.engine.batch import BatchWalk, Preparation, Ready, left_by, walks_of
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.hybrid.status import Status
-from biped_adrc.model.robots.limits import Limits
+from biped_adrc.model.ground import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk_scenario

@@ -99,7 +99,7 @@ def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_pat
     """
     path = tmp_path / "mine.json"
     load_family("flat", biped).save(path)
-    with pytest.raises(GaitError, match=r"no family 'steep'.*stored are \['flat', 'rough'\]"):
+    with pytest.raises(GaitError, match=r"no family 'steep'.*choose one of \['flat', 'rough'\]"):
         load_family("steep", biped)
     stored = data_file("gaits", "rabbit", "families", "steep.json")
     with pytest.raises(GaitError, match=r"families/steep.json' not found"):

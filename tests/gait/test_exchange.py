@@ -12,7 +12,7 @@ from scipy.io import loadmat, savemat
 
 import biped_adrc as ba
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.gait.conventions import CONVENTIONS, own_convention
+from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of
 from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.exchange.entries import entry
 from biped_adrc.gait.exchange.importing import (
@@ -144,7 +144,7 @@ def test_rows_that_are_other_outputs(biped, gait, record):
         [[0, 0, 0, 0, 1], [-1, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]], dtype=float
     )
     # curves of all five angles; the record has those of the four motors
-    curve = coordinates(record, own_convention(biped)).curve
+    curve = coordinates(record, layout_of(OWN, biped))[0].curve
     other = replace(record, coefficients=H0 @ curve.coefficients, outputs=H0)
     assert_same(gait, import_gait(other, biped), abs=1e-9)
 

@@ -23,7 +23,7 @@ from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.zero_domain import DomainLimits, domain
 from biped_adrc.gait.zero_orbits import ZeroOrbits
-from biped_adrc.model.robots.limits import KnownLimits
+from biped_adrc.model.ground import KnownLimits
 
 ALPHA, GRAVITY = math.pi / 8, 9.81
 METHOD = ba.RK4(1e-3)

@@ -23,8 +23,7 @@ from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
 from biped_adrc.hybrid.trajectory import Arc
-from biped_adrc.model.ground import SoftGround
-from biped_adrc.model.robots.limits import SLIP
+from biped_adrc.model.ground import SLIP, SoftGround
 
 from .loops import loop_on, run_of, steps_of
 

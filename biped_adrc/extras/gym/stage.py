@@ -38,7 +38,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Flags
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.hardware.sample_hold import motor_torque
-from biped_adrc.model.robots.limits import KnownLimits
+from biped_adrc.model.ground import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
 from biped_adrc.scenario.dotted import flat, merged, tables
 from biped_adrc.scenario.scenario import Scenario

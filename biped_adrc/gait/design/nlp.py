@@ -46,51 +46,15 @@ from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.rough import RoughSteps
-from biped_adrc.gait.design.step import SymbolicStep, Unknowns
+from biped_adrc.gait.design.step import Bounded, SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
 
 LONGEST_STEP = 1.2
 """Longest step that is searched, as a share of the leg length."""
-_SHORTEST = 0.05
-"""Shortest step that is searched, as a share of the leg length."""
-PASSED = 0.5
-"""Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
-LATE = f"the swing foot above the ground after {PASSED:.0%} of the step"
+LATE = "the swing foot above the ground after 50% of the step"
 """Name of the limit on the swing foot where no clearance is required."""
-_SMOOTH = 1e-2
-"""Width of the smoothed |power| in the cost of transport, as a share of the torque limit times 1 rad/s."""
-CALM = 1e-2
-"""Weight [1] of the torque squared that is added to other objectives, which leave it partly undetermined."""
-Bounds = tuple[Array, Array]
-"""Lower and upper bounds of the decision vector, both (nx,)."""
-
-MAX_ITERATIONS = 250
-"""Largest number of iterations of one run of IPOPT."""
-MAX_SECONDS = 300.0
-"""Longest wall time of one run of IPOPT [s]."""
 ASKED = ("the speed", "the step length")
 """Names of the equality rows that state the request rather than the physics of the step."""
-ASKED_WEIGHT = 100.0
-"""Weight of the slacks of ASKED in the relaxation, so that a limit gives way before the request does."""
-_MISSED = 1e-5
-"""Largest slack, dimensionless or [rad], with which a limit counts as kept."""
-INTERRUPTED = ("NonIpopt_Exception_Thrown", "User_Requested_Stop")
-"""Statuses with which CasADi ends IPOPT after Ctrl-C, in an evaluation or between two of them."""
-
-
-class Bounded(NamedTuple):
-    """One constraint (row, or several rows) low <= value <= high, dimensionless, or [rad] for angles; an
-    equality if low = high.
-    """
-
-    name: str
-    """Name of the constraint in error messages; several rows may share one."""
-    value: ca.MX
-    """Expressions, one column: often the same limit at all nodes."""
-    low: float
-    high: float
-    unit: str = ""
-    """What the value is a share of, such as "of the weight", or its unit; for messages."""
 
 
 @dataclass(frozen=True)
@@ -132,14 +96,14 @@ def transcribe(
     guess: Theta falls in a walk to +x with the paper's phase, but grows with the phase of other robots.
     """
     step = SymbolicStep(biped, request, limits, direction)
-    rough = RoughSteps(step).rows() if limits.rough else iter(())
-    others = (Bounded(name, ca.vec(x), low, high, unit) for name, x, low, high, unit in rough)
-    rows = (*_equalities(step), *_limits(step), *others)
+    rough = RoughSteps(step).rows() if limits.rough else ()
+    rows = (*_equalities(step), *_limits(step), *rough)
+    columns = tuple(row._replace(value=ca.vec(row.value)) for row in rows)
     x = ca.vertcat(*(ca.vec(part) for part in step.x))
-    return NonlinearProgram(x, _objective(step), rows), step.x
+    return NonlinearProgram(x, _objective(step), columns), step.x
 
 
-def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
+def _equalities(k: SymbolicStep) -> list[Bounded]:
     """Equality rows: the walking step is one periodic orbit of the hybrid zero dynamics, with the requested
     speed and step length.
 
@@ -171,10 +135,10 @@ def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
         zero.append(("the step length", (k.length - k.request.step) / k.leg, "of the leg"))
     if k.request.speed is not None:
         zero.append(("the speed", k.length / k.duration / k.request.speed - 1.0, "of itself"))
-    return tuple(Bounded(name, ca.vec(value), 0.0, 0.0, *unit) for name, value, *unit in zero)
+    return [Bounded(name, value, 0.0, 0.0, *unit) for name, value, *unit in zero]
 
 
-def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
+def _limits(k: SymbolicStep) -> list[Bounded]:
     """Inequality rows, at the nodes and both ends of the step: contact, torque, lift-off, stability, clearance,
     ranges and rates of the joints.
 
@@ -182,18 +146,16 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     the torque does by the bound of the unknown `x.peak`. The clearance required is a hump 16 h (s (1 - s))^2
     over the normalised phase, which is h in the middle of the step and 0, with slope 0, at its ends.
     """
-    x, limits, infinite = k.x, k.limits, np.inf
+    x, limits, inf = k.x, k.limits, np.inf
     weight, kept = k.biped.weight, 1.0 - limits.reserve
     speed = np.sqrt(k.gravity * k.leg)  # unit of speeds
     node, s = k.everywhere, k.places
     F_T, F_N = k.along @ node.force / weight, k.out @ node.force / weight
     # the impulse at Theta'- = 1 has the sign of Theta'
-    P_T, P_N = (
-        k.direction * x.rate * (row @ x.impulse) / (k.mass * speed) for row in (k.along, k.out)
-    )
+    rate = k.direction * x.rate
+    P_T, P_N = (rate * (row @ x.impulse) / (k.mass * speed) for row in (k.along, k.out))
     # speeds out of the ground: of the swing foot before the impact, of the old stance foot after it
-    before = k.direction * x.rate * (k.out @ k.J_2 @ k.dq)
-    after = k.direction * x.rate * (k.out @ x.after[k.n :])
+    before, after = rate * (k.out @ k.J_2 @ k.dq), rate * (k.out @ x.after[k.n :])
     torque = node.u / limits.torque
     lift = limits.lift_off / speed
     mu, mu_i = kept * limits.friction, kept * limits.impulse_friction
@@ -201,55 +163,53 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     ratio = (k.sigma(k.q_plus, k.v_plus) / k.sigma(x.q, k.dq)) ** 2  # delta^2
     # steps from 0.05 to 1.2 of the leg are searched
     rows = [
-        Bounded("the normal force", F_N, limits.normal_force, infinite, weights),
-        Bounded("friction", mu * F_N - F_T, 0.0, infinite, weights),
-        Bounded("friction", mu * F_N + F_T, 0.0, infinite, weights),
-        Bounded("the impulse", P_N, 0.0, infinite),
-        Bounded("the torque limit", torque - x.peak, -infinite, 0.0, "of the limit"),
-        Bounded("the torque limit", torque + x.peak, 0.0, infinite, "of the limit"),
-        Bounded("the swing foot coming down", before / speed, -infinite, -lift, speeds),
-        Bounded("the old foot lifting off", after / speed, lift, infinite, speeds),
+        Bounded("the normal force", F_N, limits.normal_force, inf, weights),
+        Bounded("friction", mu * F_N - F_T, 0.0, inf, weights),
+        Bounded("friction", mu * F_N + F_T, 0.0, inf, weights),
+        Bounded("the impulse", P_N, 0.0, inf),
+        Bounded("the torque limit", torque - x.peak, -inf, 0.0, "of the limit"),
+        Bounded("the torque limit", torque + x.peak, 0.0, inf, "of the limit"),
+        Bounded("the swing foot coming down", before / speed, -inf, -lift, speeds),
+        Bounded("the old foot lifting off", after / speed, lift, inf, speeds),
         # Theta goes one way all along and goes on so after impact; 0.05 rad and 0.02 keep the solver away from
         # a span and a rate of zero
-        Bounded("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
-        Bounded("one way of Theta after impact", k.phase @ k.v_plus, 0.02, infinite),
-        Bounded(
-            "the slowest rate", x.rates / x.rate, limits.slowest, infinite, "of that before impact"
-        ),
-        Bounded("stability, delta^2 below 1", ratio, -infinite, limits.multiplier),
-        Bounded("the range of steps", k.length / k.leg, _SHORTEST, LONGEST_STEP, legs),
+        Bounded("one way of Theta", k.direction * k.span, 0.05, inf, "rad"),
+        Bounded("one way of Theta after impact", k.phase @ k.v_plus, 0.02, inf),
+        Bounded("the slowest rate", x.rates / x.rate, limits.slowest, inf, "of that before impact"),
+        Bounded("stability, delta^2 below 1", ratio, -inf, limits.multiplier),
+        Bounded("the range of steps", k.length / k.leg, 0.05, LONGEST_STEP, legs),
     ]
     if np.isfinite(mu_i):
         rows += [
-            Bounded("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
-            Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
+            Bounded("the impulse cone", mu_i * P_N - P_T, 0.0, inf, "of m sqrt(g leg)"),
+            Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, inf, "of m sqrt(g leg)"),
         ]
     # nodes at which the foot has to be above the ground: without a clearance those in the later half of the
-    # step alone, s > PASSED, since a leg without a knee scuffs before
-    scuffs = PASSED if limits.clearance is None else 0.0
+    # step alone, since a leg without a knee scuffs before
+    scuffs = 0.5 if limits.clearance is None else 0.0
     above = [i for i, x in enumerate(s) if scuffs < x < 1.0]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
     # LATE: name of the row where no clearance is asked for
     name = LATE if limits.clearance is None else "foot clearance"
-    rows.append(Bounded(name, height, 0.0, infinite, legs))
+    rows.append(Bounded(name, height, 0.0, inf, legs))
     for joint, (low, high) in limits.ranges.items():
         j = k.biped.description.joint_index(joint)
         # the reserve at either end is a share of 0.25 rad, or of half the range where that is less
         kept_back = limits.reserve * min(0.25, 0.5 * (high - low))
         ends = low + kept_back, high - kept_back
         rows.append(Bounded(f"the range of {joint}", node.q[j, :], *ends, "rad"))
-    for joint, rate in limits.rates.items():
-        share = node.v_b[k.biped.description.joint_index(joint), :] / rate
+    for joint, most in limits.rates.items():
+        share = node.v_b[k.biped.description.joint_index(joint), :] / most
         rows.append(Bounded(f"the rate of {joint}", share, -kept, kept, "of its limit"))
-    return tuple(row._replace(value=ca.vec(row.value)) for row in rows)
+    return rows
 
 
 def _objective(k: SymbolicStep) -> ca.MX:
     """The cost (1, 1) of the request's objective, made dimensionless so that it is about 1 in size.
 
     Torque: the integral of u'u over time and step length. Transport: that of sum |u_i q_i'| over weight and
-    step length. Peak: the largest |u_i|. The last two have a little torque squared (`calm`) added, CALM times,
+    step length. Peak: the largest |u_i|. The last two have a little torque squared (`calm`) added, 0.01 times,
     since they leave the torque undetermined where it costs nothing.
     """
     u = k.node.u / k.limits.torque
@@ -259,12 +219,14 @@ def _objective(k: SymbolicStep) -> ca.MX:
             return calm
         case Objective.TRANSPORT:
             # |x| as sqrt(x^2 + e^2) - e, which has a derivative at 0
-            # _SMOOTH: width of the smoothed |power|
-            power = ca.sum1(ca.sqrt((u * k.node.v_b) ** 2 + _SMOOTH**2) - _SMOOTH)
+            # e: share of the torque limit times 1 rad/s
+            e = 1e-2
+            power = ca.sum1(ca.sqrt((u * k.node.v_b) ** 2 + e**2) - e)
             work = ca.sum2(power * k.dt) * k.limits.torque
-            return work / (k.biped.weight * k.length) + CALM * calm
+            cost = work / (k.biped.weight * k.length)
         case Objective.PEAK:
-            return k.x.peak + CALM * calm
+            cost = k.x.peak
+    return cost + 1e-2 * calm
 
 
 # -- IPOPT -----------------------------------------------------------------------------------------
@@ -281,9 +243,9 @@ class IpoptResult(NamedTuple):
 
 
 def solve_nlp(
-    programme: NonlinearProgram, x0: Array, bounds: Bounds, strategy: str = "adaptive"
+    programme: NonlinearProgram, x0: Array, bounds: tuple[Array, Array], strategy: str = "adaptive"
 ) -> IpoptResult:
-    """Run IPOPT once from the first guess x0 (nx,), within bounds of the decision vector, solved or not.
+    """Run IPOPT once from the first guess x0 (nx,), within lower and upper bounds (nx,), solved or not.
 
     strategy: how IPOPT lowers its barrier parameter, "adaptive" (fast) or "monotone" (more robust). Raises
     KeyboardInterrupt on Ctrl-C, which CasADi notices at its next evaluation.
@@ -298,8 +260,8 @@ def solve_nlp(
         "show_eval_warnings": False,
         "ipopt.print_level": 0,
         "ipopt.sb": "yes",  # no banner
-        "ipopt.max_iter": MAX_ITERATIONS,
-        "ipopt.max_wall_time": MAX_SECONDS,
+        "ipopt.max_iter": 250,
+        "ipopt.max_wall_time": 300.0,  # [s]
         "ipopt.mu_strategy": strategy,
         "ipopt.acceptable_tol": 1e-6,
         "ipopt.acceptable_constr_viol_tol": 1e-9,
@@ -309,13 +271,14 @@ def solve_nlp(
     result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     stats = solver.stats()
     status, count = stats["return_status"], stats["iter_count"]
-    if status in INTERRUPTED:  # how CasADi reports Ctrl-C
+    # how CasADi reports Ctrl-C, in an evaluation or between two of them
+    if status in ("NonIpopt_Exception_Thrown", "User_Requested_Stop"):
         raise KeyboardInterrupt
     return IpoptResult(np.array(result["x"]).ravel(), status, stats["success"], count)
 
 
 def relaxed(
-    programme: NonlinearProgram, request: str, x0: Array, bounds: Bounds, status: str
+    programme: NonlinearProgram, request: str, x0: Array, bounds: tuple[Array, Array], status: str
 ) -> Array:
     """Find a decision vector (nx,) that keeps all limits, from x0 (nx,), by a relaxation with slacks s.
 
@@ -323,32 +286,32 @@ def relaxed(
 
     Each name of a limit has one slack, so that all rows of that name give way together; the small share of the
     objective keeps the solution unique. The equations of the model have no slack; the requested speed and step
-    length have one of weight w = ASKED_WEIGHT, all other limits w = 1.
+    length have one of weight w = 100, all other limits w = 1, so that these give way first.
 
-    bounds: of x. request, status: the request in words, and the status with which IPOPT failed before, for the
-    message. Raises GaitError naming the limits whose slack stays above _MISSED.
+    bounds: lower and upper ones of x (nx,). request, status: the request in words, and the status with which
+    IPOPT failed before, for the message. Raises GaitError naming the limits whose slack stays above 1e-5,
+    dimensionless or [rad].
     """
     # ASKED: names of the rows of the requested speed and step length
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
-    hard = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
+    rows = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
     names = list(dict.fromkeys(row.name for row in soft))
     slack = ca.MX.sym("slack", len(names))
-    rows = list(hard)
     for row in soft:
         give = ca.repmat(slack[names.index(row.name)], row.value.numel(), 1)
         if np.isfinite(row.low):
             rows.append(Bounded(row.name, row.value + give, row.low, np.inf))
         if np.isfinite(row.high):
             rows.append(Bounded(row.name, row.value - give, -np.inf, row.high))
-    weight = np.array([ASKED_WEIGHT if name in ASKED else 1.0 for name in names])
+    weight = np.array([100.0 if name in ASKED else 1.0 for name in names])
     count = len(names)
     cost = ca.dot(weight, slack) + 1e-6 * programme.objective
     softened = NonlinearProgram(ca.vertcat(programme.x, slack), cost, tuple(rows))
     ends = np.append(bounds[0], np.zeros(count)), np.append(bounds[1], np.full(count, np.inf))
     # slacks of 1 at first; "monotone": the more robust way in which IPOPT lowers its barrier
     result = solve_nlp(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
-    # a slack above _MISSED is a limit that cannot be kept
-    missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > _MISSED}
+    # a slack above 1e-5 is a limit that cannot be kept
+    missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > 1e-5}
     if missed or not result.solved:
         why = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
         if not result.solved:

@@ -41,7 +41,7 @@ from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design import nlp
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
-from biped_adrc.gait.design.rough import EARLIEST, HIGHEST, LATEST
+from biped_adrc.gait.design.rough import HIGHEST
 from biped_adrc.gait.design.step import Unknowns, at_gait, stacked
 from biped_adrc.gait.gait import Gait, onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit, invariant_constraint
@@ -50,14 +50,10 @@ from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import point, turned
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
-FROUDE = 1.5
-"""Largest speed over sqrt(g leg) that is searched; above 1 an inverted pendulum already leaves the ground."""
 MOVED = 1e-3
 """Largest change of a joint by which a requested state is moved onto the ground [rad]."""
 _STEP = 0.5
 """For a request without them: step length of the guess over the leg length, and speed over sqrt(g leg)."""
-BEND = 0.2
-"""Distance of a joint of the guess from the end of its range [rad]; at most a quarter of the range."""
 
 
 def standing(robot: PlanarRobot) -> Array:
@@ -95,8 +91,9 @@ def apart(
     for joint, (low, high) in ranges.items():
         k = biped.description.joint_index(joint)
         bounds[:, k] = low, high
-        # the first guess is a little inside: at a bound it would have only one direction to move in
-        off = min(BEND, 0.25 * (high - low))
+        # the first guess is 0.2 rad inside, or a quarter of the range where that is less: at a bound it would
+        # have only one direction to move in
+        off = min(0.2, 0.25 * (high - low))
         near[k] = np.clip(near[k], low + off, high - off)
 
     def miss(q: Array) -> Array:
@@ -145,8 +142,9 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     if request.through is None:
         leg = robot_of(biped).leg
         step = request.step or _STEP * leg  # half the leg, where no step length is asked for
-        # FROUDE and LONGEST_STEP: what is searched at most
-        most = FROUDE * math.sqrt(biped.description.gravity * leg)
+        # most: of the speeds, as LONGEST_STEP of the steps; above sqrt(g leg) an inverted pendulum already
+        # leaves the ground
+        most = 1.5 * math.sqrt(biped.description.gravity * leg)
         if step > nlp.LONGEST_STEP * leg or (request.speed or 0.0) > most:
             raise GaitError(
                 f"{request.in_words()} is asked for; legs of {leg:g} m cannot walk, one foot always on the "
@@ -168,18 +166,8 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     return at_gait(biped, h, q, dq, rate, np.full(request.nodes, rate), 0.5)
 
 
-_NODES = 120
-"""Gauss nodes of the audit, five times those at which the programme keeps its limits by default."""
-SPEED = 5e-5
-"""Largest deviation of the speed (relative) and of the step length (over the leg) from the request."""
 _EXACT = 1e-6
 """Largest violation of all other rows by an exact gait, dimensionless or [rad]."""
-SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
-"""Bounds of the unknown rates."""
-_CALM = 1e-2
-"""Weight of the objective, which is about 1, in the search of the largest H, which counts as a share."""
-WINDING = 1.5
-"""Largest distance of a Bezier coefficient from the first guess [rad]; else a leg may wind round by 2 pi."""
 
 
 def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitRequest) -> list[str]:
@@ -187,7 +175,8 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
 
     Friction, torque, ranges and rates are compared with the limits themselves, since the programme kept a
     reserve to them. It kept none to F_N, clearance, lift-off and slowest rate, so these may fall short of their
-    limits by the reserve's share. The requested speed and step length may be missed by SPEED.
+    limits by the reserve's share. The requested speed (relative) and step length (over the leg) may be missed
+    by 5e-5.
     """
     limits, c = request.limits.of(biped), gait.constraint
     # loose: limits without a reserve at the upper ends, and less by the reserve's share at these lower ends
@@ -202,8 +191,8 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # the same rows as in the design, but at all nodes of `orbit`; nothing is solved
     finer = replace(request, nodes=len(rates))
     programme, _ = nlp.transcribe(biped, finer, loose, float(np.sign(rate)))
-    # ASKED: rows of speed and step length, which may miss by SPEED
-    allowed = dict.fromkeys(nlp.ASKED, SPEED)
+    # ASKED: rows of speed and step length
+    allowed = dict.fromkeys(nlp.ASKED, 5e-5)
     # a foot without a required clearance is kept above the ground at the programme's nodes alone
     # LATE: row on the swing foot where no clearance is asked for
     allowed[nlp.LATE] = np.inf
@@ -332,9 +321,11 @@ def _on_rough_ground(
     # landings at the end of the curve
     guess = level._replace(rough=np.array([0.0, 1.0, 1.0]))
     low, high = map(unknowns.split, _bounds(unknowns, guess, request, limits))
-    most = stacked(high._replace(rough=np.array([H, LATEST, LATEST])))
-    fixed, free = (stacked(low._replace(rough=np.array([h, EARLIEST, EARLIEST]))) for h in (H, 0.0))
-    highest = replace(programme, objective=_CALM * programme.objective - unknowns.rough[0] / H)
+    # the foot lands at phases s from 0.55 to 1.5
+    most = stacked(high._replace(rough=np.array([H, 1.5, 1.5])))
+    fixed, free = (stacked(low._replace(rough=np.array([h, 0.55, 0.55]))) for h in (H, 0.0))
+    # the largest H, as a share of what is asked for, with a little of the objective, which is about 1
+    highest = replace(programme, objective=1e-2 * programme.objective - unknowns.rough[0] / H)
     x, iterations = stacked(guess), 0
     for each, least in ((programme, fixed), (highest, free), (programme, fixed)):
         run = nlp.solve_nlp(each, x, (least, most))
@@ -352,29 +343,23 @@ def _on_rough_ground(
 
 def _bounds(
     unknowns: Unknowns[ca.MX], guess: Unknowns[Array], request: GaitRequest, limits: RobotLimits
-) -> nlp.Bounds:
+) -> tuple[Array, Array]:
     """Lower and upper bounds (nx,) of the decision vector.
 
-    Rates are positive, and coefficients stay within WINDING of the guess (angles repeat every 2 pi). The
-    unknown `peak`, the bound on |torque| over the torque limit [1], is fixed at 1 less the reserve; if it is
-    the objective it is free between 0 and that. A requested pre-impact state is fixed.
+    Rates |Theta'| are from 0.02 to 60 rad/s, and coefficients stay within 1.5 rad of the guess, else a leg may
+    wind round by 2 pi. The unknown `peak`, the bound on |torque| over the torque limit [1], is fixed at 1 less
+    the reserve; if it is the objective it is free between 0 and that. A requested pre-impact state is fixed.
     All other unknowns are free.
     """
     # rate, rates: |Theta'| just before the impact and at the nodes; alpha: coefficients; q, slope: q- and
     # dq_b/dTheta just before the impact
     free = Unknowns[Array](*(np.full(part.shape, np.inf) for part in unknowns))
-    one, all_nodes = np.ones(1), np.ones(request.nodes)
+    one, each = np.ones(1), np.ones(request.nodes)
     peak = (1.0 - limits.reserve) * one
-    # SLOWEST, FASTEST: bounds of |Theta'| [rad/s]
-    low = Unknowns[Array](*(-part for part in free))._replace(
-        rate=SLOWEST * one,
-        rates=SLOWEST * all_nodes,
-        alpha=guess.alpha - WINDING,
-        peak=0.0 * one if request.objective is Objective.PEAK else peak,
-    )
-    high = free._replace(
-        rate=FASTEST * one, rates=FASTEST * all_nodes, alpha=guess.alpha + WINDING, peak=peak
-    )
+    least = 0.0 * one if request.objective is Objective.PEAK else peak
+    low = Unknowns[Array](*(-part for part in free))
+    low = low._replace(rate=0.02 * one, rates=0.02 * each, alpha=guess.alpha - 1.5, peak=least)
+    high = free._replace(rate=60.0 * one, rates=60.0 * each, alpha=guess.alpha + 1.5, peak=peak)
     if request.through is not None:
         fixed = {"q": guess.q, "slope": guess.slope, "rate": guess.rate}
         low, high = low._replace(**fixed), high._replace(**fixed)
@@ -384,7 +369,8 @@ def _bounds(
 def exact_gait(
     biped: Biped, request: GaitRequest, x: Unknowns[Array]
 ) -> tuple[Gait, ZeroDynamicsOrbit]:
-    """The gait of a solution x, hybrid-invariant and periodic to round-off, and its step at _NODES nodes.
+    """The gait of a solution x, hybrid-invariant and periodic to round-off, and its step at 120 nodes,
+    five times those at which the programme keeps its limits by default.
 
     Of x only q- (n,), the slopes dq_b/dTheta (p,) and the inner coefficients (p, M - 3) are used, with M the
     degree of the curves; the outer coefficients follow from Pinocchio's impact, the orbit from the quadrature
@@ -399,7 +385,7 @@ def exact_gait(
     # the two outer coefficients at either end follow from the impact, those between are the solution's
     alpha = np.array(h.curve.coefficients)
     alpha[:, 2:-2] = x.alpha[:, 2:-2]
-    zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), _NODES)
+    zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), 120)
     # {}: the provenance is added below, as it has the step length
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
     step = gait.step_length(biped)

@@ -21,15 +21,7 @@ from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import FREELY
 
-MOST_NODES = 100
-"""Largest number of nodes in a request; twice as many are tried where limits are violated between them."""
 FrictionFloat = Annotated[float, Range("a number above 0, or infinity", lambda x: x > 0.0)]
-SlopeFloat = Annotated[float, Range("below 0.5 rad either way", lambda x: abs(x) < 0.5)]
-DegreeInt = Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4, 13))]
-# more than MOST_NODES are accepted too, for the requests with more nodes that `optimise` makes itself
-NodesInt = Annotated[
-    int, Range(f"8 to {MOST_NODES} nodes", lambda x: x in range(8, 2 * MOST_NODES + 1))
-]
 LOW_FIRST = each("low < high [rad] by joint", lambda ends: ends[0] < ends[1])
 """Check of ranges: each has its lower end first."""
 
@@ -148,12 +140,13 @@ class GaitRequest(Checked, Shown):
     """Average speed along the ground [m/s]."""
     step: PositiveFloat | None = None
     """Distance between the feet [m]."""
-    slope: SlopeFloat = 0.0
+    slope: Annotated[float, Range("below 0.5 rad either way", lambda x: abs(x) < 0.5)] = 0.0
     """Slope of the ground [rad], positive downhill."""
     objective: Objective = Objective.TORQUE
-    degree: DegreeInt = 6
+    degree: Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4, 13))] = 6
     """Degree of the curves: one less than their coefficients."""
-    nodes: NodesInt = 24
+    # more than 100 are accepted too, as `optimise` tries twice as many where limits are violated between them
+    nodes: Annotated[int, Range("8 to 100 nodes", lambda x: x in range(8, 201))] = 24
     """Number of Gauss nodes at which the limits are kept; twice as many where that is not enough."""
     limits: StepLimits = StepLimits()
     through: Annotated[tuple[float, ...], each("finite numbers", math.isfinite)] | None = None

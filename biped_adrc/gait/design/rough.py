@@ -24,20 +24,14 @@ import casadi as ca
 import numpy as np
 
 from biped_adrc.gait.constraint import FADE
-from biped_adrc.gait.design.step import Node, SymbolicStep, node_function, split_rows
+from biped_adrc.gait.design.step import Bounded, Node, SymbolicStep, node_function, split_rows
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.model.planar_robot import robot_of
 
 MIDDLE = 0.5
 """Phase s at which y is taken: the usual share of `ReferenceReset`, where its bend ends."""
-_BEND_FROM = 0.8
-"""Largest share of MIDDLE at which a step may begin: later, `ReferenceReset` does not bend (LEAST_REACH)."""
-EARLIEST, LATEST = 0.55, 1.5
-"""Phases s between which the foot lands."""
 HIGHEST = 0.1
 """Largest H as a share of the leg's length [1]."""
-Row = tuple[str, ca.MX, float, float, str]
-"""A row of the programme: name, value, its least and largest value, unit, as in `nlp.Bounded`."""
 
 
 class Half(NamedTuple):
@@ -112,18 +106,6 @@ def basis_function(k: SymbolicStep) -> ca.Function:
     return ca.Function("basis", [s], [*rows])
 
 
-def curve_function(k: SymbolicStep, basis: ca.Function) -> ca.Function:
-    """Make the CasADi function (coefficients of the curve and its bend (p (M + 3),), (Theta+, Theta-), s) ->
-    the rows of `Node` at Theta' = 0, and at |Theta'| = 1 rad/s. Both are in one function, so that CasADi
-    computes what they share once.
-    """
-    M = k.request.degree + 2  # a_0, a_1 are two coefficients more
-    alpha, theta, s = ca.SX.sym("a", k.p * (M + 1)), ca.SX.sym("t", 2), ca.SX.sym("s")
-    node = node_function(robot_of(k.biped), k.biped.phase, M, k.direction)
-    rows = [node(alpha, theta, s, *basis(s), rate) for rate in (0.0, 1.0)]
-    return ca.Function("curve", [alpha, theta, s], rows, {"cse": True})
-
-
 class RoughSteps:
     """Steps over the heights H and -H on the curve of a `SymbolicStep` k, and one over level ground.
 
@@ -132,7 +114,13 @@ class RoughSteps:
 
     def __init__(self, k: SymbolicStep) -> None:
         self.k, self.basis = k, basis_function(k)
-        self.function = curve_function(k, self.basis)
+        M = k.request.degree + 2  # a_0, a_1 are two coefficients more
+        alpha, theta, s = ca.SX.sym("a", k.p * (M + 1)), ca.SX.sym("t", 2), ca.SX.sym("s")
+        node = node_function(robot_of(k.biped), k.biped.phase, M, k.direction)
+        # coefficients of the curve and its bend (p (M + 1),), (Theta+, Theta-) and s -> the rows of `Node` at
+        # Theta' = 0, and at |Theta'| = 1 rad/s; in one function, so that CasADi computes what they share once
+        rows = [node(alpha, theta, s, *self.basis(s), rate) for rate in (0.0, 1.0)]
+        self.function = ca.Function("curve", [alpha, theta, s], rows, {"cse": True})
         self.gauss = gauss_nodes(k.request.nodes // 2)
         self.straight = ca.MX.zeros(k.p, 2)
         H, up, down = ca.vertsplit(k.x.rough)
@@ -186,7 +174,7 @@ class RoughSteps:
         impulse, down = k.direction * jump[n + 2 :], k.direction * (J_2 @ dq)[1]
         return Landing(second, first, foot[1], down, impulse, delta2, start)
 
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[Bounded]:
         """Rows of the programme: the landings, and the limits of both steps at all y*."""
         k, limits, inf = self.k, self.k.limits, np.inf
         levels = (self.level, *(landing.steady for _, landing in self.over.values()))
@@ -194,18 +182,20 @@ class RoughSteps:
             F_T, F_N = ca.vertsplit(at.impulse / (k.mass * k.leg))
             mu = (1.0 - limits.reserve) * limits.impulse_friction
             # lengths over the leg, as all rows
-            yield f"the landing on a step {way}", (at.foot - h) / k.leg, 0.0, 0.0, "of the leg"
-            yield f"the foot coming down on a step {way}", at.down / k.leg, -inf, 0.0, ""
-            yield f"the start after a step {way}", at.start, -inf, _BEND_FROM * MIDDLE, ""
-            yield f"stability on steps {way}", at.delta2, -inf, limits.multiplier, ""
-            yield f"the impulse on a step {way}", F_N, 0.0, inf, ""
+            gap = (at.foot - h) / k.leg
+            yield Bounded(f"the landing on a step {way}", gap, 0.0, 0.0, "of the leg")
+            yield Bounded(f"the foot coming down on a step {way}", at.down / k.leg, -inf, 0.0)
+            # a step that begins later than 0.8 of MIDDLE is not bent (`control.reference_reset`, LEAST_REACH)
+            yield Bounded(f"the start after a step {way}", at.start, -inf, 0.8 * MIDDLE)
+            yield Bounded(f"stability on steps {way}", at.delta2, -inf, limits.multiplier)
+            yield Bounded(f"the impulse on a step {way}", F_N, 0.0, inf)
             if np.isfinite(mu):
                 cone = ca.vertcat(mu * F_N - F_T, mu * F_N + F_T)
-                yield f"the impulse cone on a step {way}", cone, 0.0, inf, ""
+                yield Bounded(f"the impulse cone on a step {way}", cone, 0.0, inf)
             for half, y_0 in (pair for y in levels for pair in at.halves(y)):
                 yield from self.limits(half, y_0)
 
-    def limits(self, half: Half, y_0: ca.MX) -> Iterator[Row]:
+    def limits(self, half: Half, y_0: ca.MX) -> Iterator[Bounded]:
         """The limits of half a step, with y_0 = sigma^2 / 2 [kg^2 m^4/s^2] at its start."""
         k, limits, inf = self.k, self.k.limits, np.inf
         squared, kept = half.squared_rate(y_0), 1.0 - limits.reserve
@@ -213,10 +203,10 @@ class RoughSteps:
         cone = (kept * limits.friction * F_N + sign * F_T for sign in (1.0, -1.0))
         torque = half.at("u", y_0) / limits.torque
         # the share `reserve` of the usual speed and weight is kept for the phases between the nodes
-        yield "stall on rough ground", squared / k.x.rate**2, limits.reserve, inf, ""
-        yield "the normal force on rough ground", F_N, limits.reserve, inf, "of the weight"
-        yield "friction on rough ground", ca.vertcat(*cone), 0.0, inf, "of the weight"
-        yield "the torque on rough ground", torque, -kept, kept, "of the limit"
+        yield Bounded("stall on rough ground", squared / k.x.rate**2, limits.reserve, inf)
+        yield Bounded("the normal force on rough ground", F_N, limits.reserve, inf, "of the weight")
+        yield Bounded("friction on rough ground", ca.vertcat(*cone), 0.0, inf, "of the weight")
+        yield Bounded("the torque on rough ground", torque, -kept, kept, "of the limit")
         for joint, rate in limits.rates.items():
             share = half.moving.v_b[k.biped.description.joint_index(joint), :] / rate
-            yield "rates on rough ground", share**2 * squared, 0.0, kept**2, ""
+            yield Bounded("rates on rough ground", share**2 * squared, 0.0, kept**2)

@@ -89,6 +89,21 @@ def at_gait(
     return Unknowns(q, *about, np.array(rate), rates, np.array(peak), np.zeros(0))
 
 
+class Bounded(NamedTuple):
+    """One constraint (row, or several rows) low <= value <= high, dimensionless, or [rad] for angles; an
+    equality if low = high.
+    """
+
+    name: str
+    """Name of the constraint in error messages; several rows may share one."""
+    value: ca.MX
+    """Expressions: often the same limit at all nodes."""
+    low: float
+    high: float
+    unit: str = ""
+    """What the value is a share of, such as "of the weight", or its unit; for messages."""
+
+
 class Node(NamedTuple):
     """The model at K nodes (phases of the step), one column each; the fields are in the order of the rows of
     `node_function`.

@@ -44,19 +44,9 @@ from biped_adrc.core.files import output_path, plain, read_json, reading, write_
 from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
 from biped_adrc.gait.exchange.entries import all_entries, entry, frost_steps
-from biped_adrc.gait.exchange.record import (
-    ENTRIES,
-    REQUIRED,
-    SLOPES,
-    GaitFile,
-    coordinates,
-    foot_down,
-    onto_ground,
-    record_of,
-)
+from biped_adrc.gait.exchange.record import GaitFile, coordinates, foot_down, onto_ground, record_of
 from biped_adrc.gait.exchange.samples import Samples, explained, gait_of_samples, read_csv
-from biped_adrc.gait.gait import FORMAT as STORED
-from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.gait import FORMAT, Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.model.biped import Biped
 
@@ -112,7 +102,7 @@ def write_record(record: GaitFile, path: Path | str) -> None:
     """
     path = output_path(path, (".json", ".mat"))
     entries = {key: x for key, x in vars(record).items() if x is not None}
-    units = {key: unit for key, (_, unit) in ENTRIES.items()}
+    units = {key: unit for key, (_, unit) in GaitFile.ENTRIES.items()}
     if path.suffix.lower() == ".mat":
         for key, x in entries.items():
             entries[key] = np.atleast_2d(x) if isinstance(x, np.ndarray) else x  # rows stay rows
@@ -168,8 +158,7 @@ def read_record(
             except (KeyError, IndexError, ValueError, TypeError):
                 absent.append(theirs)
         samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
-        # REQUIRED: the entries without a default
-        absent += [key for key in REQUIRED if not samples and key not in entries]
+        absent += [key for key in GaitFile.REQUIRED if not samples and key not in entries]
         if absent:
             more = f" and {len(known) - _SHOWN} more" if len(known) > _SHOWN else ""
             raise GaitError(
@@ -178,8 +167,8 @@ def read_record(
             )
         stated = entries.get("convention")
         # without a statement these two are in the robot's own coordinates: gaits of this package, and samples
-        # STORED: format of a gait that this package wrote
-        stored = result.get("format") == STORED or samples
+        # FORMAT: of a gait that this package stored
+        stored = result.get("format") == FORMAT or samples
         convention_ = stated or convention or (OWN if stored else usual)
         # no convention, or two different ones
         if convention_ is None or (stated and convention not in (None, stated)):
@@ -233,6 +222,8 @@ def export_run(columns: Mapping[str, Array], path: Path | str, note: str = "") -
 
 RATES = 1e-2
 """Largest difference between the rates before impact that a record states and those of its curve [rad/s]."""
+SLOPES = 1e-2
+"""Largest jump of dq/dTheta through the impact in a gait whose slopes close [rad/rad]."""
 
 
 def import_gait(
@@ -330,16 +321,18 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     source: of the record, for a provenance that states none.
     """
     layout = layout_of(record.convention, biped)
-    along, remark = onto_ground(coordinates(record, layout), biped, record.slope)
+    every, turns = coordinates(record, layout)
+    along, remark = onto_ground(every, biped, record.slope)
     # along: curves of all coordinates, with dq/ds at s = 1 in dq, so dq / span is dq/dTheta before impact
-    constraint, span = along.constraint, along.theta_minus - along.theta_plus
-    q, dq, _ = along.curve(1.0)
+    curve, span = along.curve, along.theta_minus - along.theta_plus
+    constraint = replace(along, curve=type(curve)(curve.coefficients[:-1]))
+    q, dq, _ = curve(1.0)
     provenance = dict(record.provenance) or {
         "method": f"imported from convention '{record.convention}'",
         "source": source,
     }
-    if along.turns.any():
-        provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in along.turns)
+    if turns.any():
+        provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in turns)
     provenance |= remark
     robot, preset = record.robot or biped.description.name, record.preset or biped.preset
     names = record.name, robot, preset
@@ -347,7 +340,7 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     gait = Gait(*names, constraint, q, dq / abs(span), 1.0, provenance, record.slope).check(biped)
     if record.q_minus is not None and record.v_minus is not None:
         # the record's state, moved as its curves were: by whole turns, and with the foot onto the ground
-        q = layout.to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns
+        q = layout.to_paper.angles(record.q_minus) + 2.0 * np.pi * turns
         q, v = q + foot_down(biped, q, record.slope)[0], layout.to_paper.rates(record.v_minus)
         gap = np.abs(v - dq * float(along.phase @ v) / span)
         joint = int(np.argmax(gap))

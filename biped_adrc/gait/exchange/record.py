@@ -16,7 +16,7 @@ and A, b those of the convention's map q = A q' + b. `coordinates` converts a re
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -32,26 +32,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 
 _TURN = 2.0 * np.pi
-_PARALLEL = 1e-12
-"""Largest relative difference of two phase rows that count as parallel."""
-SLOPES = 1e-2
-"""Largest jump of dq/dTheta through the impact in a gait whose slopes close [rad/rad]."""
-ENTRIES = {
-    "coefficients": (2, "rad"),
-    "theta_plus": (0, "rad"),
-    "theta_minus": (0, "rad"),
-    "phase": (1, "1"),
-    "outputs": (2, "1"),
-    "q_minus": (1, "rad"),
-    "v_minus": (1, "rad/s"),
-    "period": (0, "s"),
-    "slope": (0, "rad"),
-}
-"""Name of each numeric entry -> number of its dimensions, and unit."""
 NEAR = 5e-3
 """Largest distance of a swing foot from its ground that an import takes away [m]."""
-REQUIRED = ("coefficients", "theta_plus", "theta_minus")
-"""Names of the entries without a default."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +46,21 @@ class GaitFile(Shown):
     Only convention, coefficients and the range of the phase are needed; everything else has a default or
     follows from the robot when the record is imported. Raises GaitError that names the entry.
     """
+
+    ENTRIES: ClassVar = {
+        "coefficients": (2, "rad"),
+        "theta_plus": (0, "rad"),
+        "theta_minus": (0, "rad"),
+        "phase": (1, "1"),
+        "outputs": (2, "1"),
+        "q_minus": (1, "rad"),
+        "v_minus": (1, "rad/s"),
+        "period": (0, "s"),
+        "slope": (0, "rad"),
+    }
+    """Name of each numeric entry -> number of its dimensions, and unit."""
+    REQUIRED: ClassVar = ("coefficients", "theta_plus", "theta_minus")
+    """Names of the entries without a default."""
 
     convention: str
     """Name of the angle convention, of `conventions.CONVENTIONS`; "own" for the robot's own coordinates."""
@@ -97,9 +94,9 @@ class GaitFile(Shown):
         """Check the numbers of each entry in ENTRIES, which states the number of its dimensions, and keep them
         read-only. An entry in REQUIRED may not be None.
         """
-        for key, (dimensions, _) in ENTRIES.items():
+        for key, (dimensions, _) in self.ENTRIES.items():
             value = getattr(self, key)
-            if value is not None or key in REQUIRED:
+            if value is not None or key in self.REQUIRED:
                 object.__setattr__(self, key, self._numbers(key, value, dimensions))
 
     def _numbers(self, key: str, value: object, dimensions: int) -> Array | float:
@@ -122,27 +119,6 @@ class GaitFile(Shown):
         return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
 
 
-class Coordinates(NamedTuple):
-    """Curves of all n of the paper's coordinates over a step, and the phase they belong to."""
-
-    curve: Curve
-    """q(s), (n, M + 1) coefficients [rad]."""
-    phase: Array
-    """c (n,), Theta = c q."""
-    theta_plus: float
-    """Theta at s = 0, after impact [rad]."""
-    theta_minus: float
-    """Theta at s = 1, before the next impact [rad]."""
-    turns: Array
-    """Whole turns (n,) that were added so that hips lie near pi and the others near 0."""
-
-    @property
-    def constraint(self) -> VirtualConstraint:
-        """The virtual constraint of the actuated coordinates, which are all but the last."""
-        curve = type(self.curve)(self.curve.coefficients[:-1])
-        return VirtualConstraint(curve, self.phase, self.theta_plus, self.theta_minus)
-
-
 def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, str]]:
     """The least change (n,) of the actuated joints of q- = q (n,) [rad] that puts the swing foot onto the
     ground, and a remark for the provenance.
@@ -160,10 +136,11 @@ def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, st
 
 
 def onto_ground(
-    along: Coordinates, biped: Biped, slope: float
-) -> tuple[Coordinates, dict[str, str]]:
+    along: VirtualConstraint, biped: Biped, slope: float
+) -> tuple[VirtualConstraint, dict[str, str]]:
     """Move the end of a step, and so its start after relabelling, until the swing foot is on ground of `slope`
-    [rad], as `foot_down` does; returns the curves and a remark for the provenance. along: the curves.
+    [rad], as `foot_down` does; returns the curves and a remark for the provenance. along: the curves of all
+    coordinates.
 
     dq/dTheta at the end stays; at the start it changes as dq/dTheta after the impact does, so that a
     hybrid-invariant gait stays one. Only Bezier curves are moved.
@@ -183,17 +160,19 @@ def onto_ground(
     last = (spans[1] / spans[0] - 1.0) * d
     # the change of the curves is a Bezier curve itself, with these ends and slopes
     curve = Bezier(a + Bezier.between(first, after - before, last, dq, a.shape[1] - 1))
-    return Coordinates(curve, c, plus, minus, along.turns), remark
+    return VirtualConstraint(curve, c, plus, minus), remark
 
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     """The curve A h(s) + b, of the same kind and degree as h = `curve`; A (rows, p), b (rows,) [rad]."""
-    # shifted(b) returns the coefficients of the curve plus b, of which a curve is made again
-    return type(curve)(type(curve)(A @ curve.coefficients).shifted(b))
+    # the ramp from 1 to 1 is the constant 1
+    return type(curve)(A @ curve.coefficients + np.outer(b, curve.ramp(curve.degree, 1.0, 1.0)))
 
 
-def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
-    """Convert a record to curves of all the paper's coordinates; layout: the record's convention.
+def coordinates(record: GaitFile, layout: Convention) -> tuple[VirtualConstraint, Array]:
+    """Convert a record to curves of all n of the paper's coordinates over their phase, those of the actuated
+    ones and of the last; layout: the record's convention. Also returns the whole turns (n,) that were added so
+    that hips lie near pi and the others near 0.
 
     It completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it
     is parallel to it, and adds whole turns (none in the robot's own coordinates). Raises GaitError when the
@@ -206,15 +185,16 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     # theta = c' q' = (c' A^-1) q - c' A^-1 b
     row = c @ to_paper.inverse.A
     ends = np.array([record.theta_plus, record.theta_minus]) + float(row @ to_paper.b)
-    # row = k paper_phase where they are parallel; k < 0 for a phase that grows where the paper's falls
+    # row = k paper_phase where they are parallel but for round-off; k < 0 for a phase that grows where the
+    # paper's falls
     k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
-    if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):
+    if np.max(np.abs(row - k * layout.paper_phase)) <= 1e-12 * np.max(np.abs(row)):
         row, ends = layout.paper_phase, ends / k
     # by the pose in the middle of the step, s = 0.5
     turns = np.zeros(layout.n) if layout.name == OWN else whole_turns(curve(0.5)[0])
     curve = mapped(curve, np.eye(layout.n), _TURN * turns)
     ends = ends + row @ (_TURN * turns)
-    return Coordinates(curve, row, float(ends[0]), float(ends[1]), turns)
+    return VirtualConstraint(curve, row, float(ends[0]), float(ends[1])), turns
 
 
 def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
@@ -278,6 +258,8 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
     back = other.to_paper.inverse
     # Theta = c q = c A q' + c b
     plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
+    # the entries that are the same in all conventions
+    names = ("name", "robot", "preset", "provenance", "period", "slope")
     return GaitFile(
         to,
         other.outputs @ mapped(curve, back.A, back.b).coefficients,
@@ -287,10 +269,5 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
         curve=type(constraint.curve).__name__.lower(),
         q_minus=back.angles(gait.q_minus),
         v_minus=back.rates(gait.v_minus),
-        period=gait.period,
-        slope=gait.slope,
-        name=gait.name,
-        robot=gait.robot,
-        preset=gait.preset,
-        provenance=gait.provenance,
+        **{name: getattr(gait, name) for name in names},
     )

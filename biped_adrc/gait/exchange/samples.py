@@ -54,10 +54,6 @@ LASTS = 0.05
 """Largest relative difference of the duration of the samples and the period of the zero dynamics."""
 DEGREES = range(4, 13)
 """Degrees of the curves that can be fitted."""
-_WIDE = math.log(10.0)
-"""Largest logarithm of a factor that is tried."""
-CLEARLY = 3.0
-"""A cause is named beside the best one if its distance is at most so many times as large."""
 
 
 @shown
@@ -281,7 +277,8 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
         """log(period of the robot make(k) / duration of the samples s), k = exp(log_k); 0 at the factor k that
         is searched.
         """
-        k = math.exp(min(max(log_k, -_WIDE), _WIDE))  # factors from 1/10 to 10
+        # factors from 1/10 to 10
+        k = math.exp(np.clip(log_k, -math.log(10.0), math.log(10.0)))
         return math.log(orbit(make, k).cycle.period / float(s.t[-1] - s.t[0]))
 
     # makes: name of a change -> the robot by its factor k; found: name -> distance [rad] and k
@@ -301,8 +298,8 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
     best = min((gap for gap, _ in found.values()), default=math.inf)
     if best > FITS:
         return "; no other gravity, length of the legs or mass of one body alone explains them"
-    # CLEARLY: also those that fit not much worse than the best one
-    causes = [f"{x} times {k:.4g}" for x, (gap, k) in found.items() if gap <= CLEARLY * best]
+    # also those that fit not much worse than the best one
+    causes = [f"{x} times {k:.4g}" for x, (gap, k) in found.items() if gap <= 3.0 * best]
     return f"; they would fit with {' or '.join(causes)}"
 
 

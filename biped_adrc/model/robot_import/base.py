@@ -27,7 +27,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from biped_adrc.core.errors import ModelError
-from biped_adrc.model.pinned import PIN_JOINT
+from biped_adrc.model.pinned import PIN_JOINT, ZERO
 from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Triple, free_name, text_of
 from biped_adrc.model.robots.urdf_reader import PLANAR
 
@@ -191,11 +191,10 @@ def added(
     axis = axis or next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
     every = (*names, "world", "base_x_carriage", "base_z_carriage")
     x, z, pitch, world, cart, lift = (free_name(tree, name) for name in every)
-    zero = (0.0, 0.0, 0.0)
     joints = (
-        Joint(x, "prismatic", world, cart, zero, (1.0, 0.0, 0.0)),
-        Joint(z, "prismatic", cart, lift, zero, (0.0, 0.0, 1.0)),
-        Joint(pitch, "revolute", lift, root, zero, axis),
+        Joint(x, "prismatic", world, cart, ZERO, (1.0, 0.0, 0.0)),
+        Joint(z, "prismatic", cart, lift, ZERO, (0.0, 0.0, 1.0)),
+        Joint(pitch, "revolute", lift, root, ZERO, axis),
     )
     # three links without mass and shapes
     links = {name: Link(name, None, ()) for name in (world, cart, lift)} | carried

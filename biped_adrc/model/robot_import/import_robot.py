@@ -40,7 +40,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -58,11 +58,6 @@ from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Visual,
 from biped_adrc.model.robots.urdf_reader import Contents, read
 
 Joints = tuple[Joint, ...]
-_Colour = tuple[float, float, float, float]
-"""Red, green, blue, opacity, each from 0 to 1."""
-_STEEL = 7800.0  # [kg/m^3]
-_RADIUS, _BALLS = 0.04, 13  # of a row: radius as a fraction of its length, and number
-_STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 0.35, 0.4, 1.0)
 
 
 def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
@@ -72,18 +67,20 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     """
     if any(link.visuals for link in tree.links.values()):
         return tree, ()
-    legs = [{joint.child for joint in tree.path_to_root(foot)} for foot in feet]
-    links = {}
-    for name, link in tree.links.items():
-        # a link that carries both feet, or none, belongs to the trunk
-        stance, swing = (name in leg for leg in legs)
-        colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
-        links[name] = replace(link, visuals=_shapes(tree, link, colour))
+    one, other = ({joint.child for joint in tree.path_to_root(foot)} for foot in feet)
+    # red, green, blue, opacity of the links of the trunk, which carry both feet or none, and of either leg
+    colours = dict.fromkeys(tree.links, (0.35, 0.35, 0.4, 1.0))
+    colours |= dict.fromkeys(one - other, (0.0, 0.45, 0.7, 1.0))
+    colours |= dict.fromkeys(other - one, (0.84, 0.37, 0.0, 1.0))
+    links = {
+        name: replace(link, visuals=_shapes(tree, link, colours[name]))
+        for name, link in tree.links.items()
+    }
     text = "shapes: none were read that can be drawn, so rods and balls are drawn instead"
     return replace(tree, links=links), (Note("assumed", text),)
 
 
-def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
+def _shapes(tree: Tree, link: Link, rgba: tuple[float, float, float, float]) -> tuple[Visual, ...]:
     """Rods from the link's origin to the joints below it, or else to its COM, and a ball of steel at the COM.
 
     A rod is a cylinder along z, and in another direction a row of balls, since cylinders stand upright here.
@@ -93,12 +90,13 @@ def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
     balls: list[Visual] = []
     if link.inertial is not None:
         com = link.inertial.com
-        radius = (3.0 * link.inertial.mass / (4.0 * math.pi * _STEEL)) ** (1.0 / 3.0)
+        # 7800 kg/m^3: steel
+        radius = (3.0 * link.inertial.mass / (4.0 * math.pi * 7800.0)) ** (1.0 / 3.0)
         balls = [Visual("sphere", (radius,), com, rgba)]
         ends = ends or [com]
     for end in ends:
         # radius: a share of the rod's length; shares: places of the balls of a rod, from its start to its end
-        radius, shares = _RADIUS * math.hypot(*end), np.linspace(0.0, 1.0, _BALLS).tolist()
+        radius, shares = 0.04 * math.hypot(*end), np.linspace(0.0, 1.0, 13).tolist()
         x, y, z = end
         if z and not x and not y:
             balls.append(Visual("cylinder", (radius, abs(z)), (0.0, 0.0, 0.5 * z), rgba))
@@ -111,9 +109,6 @@ PRESET = "urdf"
 """Name of the preset that holds the masses of the URDF."""
 FRICTION = 0.6
 """Dry friction mu of the feet [1] if the user states none: that of RABBIT."""
-
-_SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
-"""The part of a link's name that says left or right."""
 
 
 @dataclass(frozen=True)
@@ -190,7 +185,8 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     bodies: dict[str, list[str]] = {}
     for link in (x for x in heavy if x not in twins.values()):  # none of the swing leg
         group = [link, twins[link]] if link in twins else [link]
-        name = _SIDES.sub("", link).strip("_-") if link in twins else link
+        side = r"(^|[_-])(left|right|l|r)(?=$|[_-])"
+        name = re.sub(side, "", link, flags=re.IGNORECASE).strip("_-") if link in twins else link
         occupied = not name or name in bodies or (name in heavy and name not in group)
         bodies[link if occupied else name] = group
     return bodies
@@ -217,6 +213,12 @@ class Derived:
     def broken(self) -> tuple[Check, ...]:
         """The checks of laws that do not hold; empty for a robot that can be used."""
         return tuple(check for check in self.checks if not check.holds)
+
+    def sound(self) -> Self:
+        """The same robot. Raises ModelError, with the laws that do not hold."""
+        if self.broken:
+            raise ModelError(f"'{self.biped.tree.source}': {'; '.join(map(str, self.broken))}")
+        return self
 
     def write(self, folder: Path | str) -> Path:
         """Write floating.urdf and robot.toml for `Biped.load` into a folder; returns the path of robot.toml.
@@ -251,11 +253,8 @@ def biped_from_urdf(
     >>> ba.biped_from_urdf(biped.description.urdf).n
     5
     """
-    derived = derive(path, Hints(feet, actuated, hip, torque, armature=armature, tip=tip))
-    if derived.broken:
-        broken = "; ".join(str(check) for check in derived.broken)
-        raise ModelError(f"'{path}': {broken}")
-    return derived.biped
+    hints = Hints(feet, actuated, hip, torque, armature=armature, tip=tip)
+    return derive(path, hints).sound().biped
 
 
 def derive(path: Path | str, hints: Hints | None = None) -> Derived:
@@ -271,7 +270,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     tree, of_legs = urdf.evened(body.tree, pair)
     body = replace(body, tree=tree).noting(*of_legs)
     parts = anatomy(body, pair, hints.hip)
-    tree, of_shapes = drawable(body.tree, parts.feet)
+    tree, of_shapes = drawable(body.tree, pair)
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
     rotors, of_rotors = _armature(contents, actuated, hints)

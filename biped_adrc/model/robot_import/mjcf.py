@@ -29,8 +29,6 @@ from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
 """Types of joints, in the order of MuJoCo's numbers for them."""
-_TURNS = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
-"""Attributes of a body that turn its frame."""
 
 
 def read_mjcf(path: Path) -> Contents:
@@ -87,8 +85,8 @@ def _compiled(model: Any, path: Path) -> Any:
         root = ET.fromstring(path.read_bytes().lstrip())
         bodies = root.findall(".//body")
         # without `pos` the turn of a turned body, and the place of a body without joints, would be lost
-        # _TURNS: attributes that turn a body's frame
-        if any(_TURNS & {*body.attrib} or body.find("joint") is None for body in bodies):
+        turns = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
+        if any(turns & {*body.attrib} or body.find("joint") is None for body in bodies):
             raise
     for element in (*root.iterfind("compiler"), *bodies):
         element.attrib = {k: x for k, x in element.attrib.items() if k not in ("coordinate", "pos")}
@@ -184,7 +182,7 @@ def _notes(m: Any, hinges: dict[str, int]) -> Notes:
     """
     springs = {n: float(m.jnt_stiffness[j]) for n, j in hinges.items() if m.jnt_stiffness[j]}
     zeros = {n: z for n, j in hinges.items() if (z := float(m.qpos0[m.jnt_qposadr[j]]))}
-    g = m.opt.gravity.tolist()
+    g, usual = m.opt.gravity.tolist(), [0.0, 0.0, -GRAVITY]
     # (what was found, text): no note where it is 0, empty or False
     notes = (
         (m.ngeom, f"{m.ngeom} shapes with their contacts, such as soles: the feet are points"),
@@ -192,9 +190,6 @@ def _notes(m: Any, hinges: dict[str, int]) -> Notes:
         (zeros, f"zeros of joints: angles count from the reference posture, at {zeros} rad"),
         (np.any(m.actuator_biastype), "gains of servos: the motors are torques"),
         (m.ntendon, f"{m.ntendon} tendons"),
-        (
-            g != [0.0, 0.0, -GRAVITY],
-            f"gravity {g} m/s^2; --set gravity= gives another than {GRAVITY}",
-        ),
+        (g != usual, f"gravity {g} m/s^2; --set gravity= gives another than {GRAVITY}"),
     )
     return tuple(Note("left out", text) for found, text in notes if found)

@@ -31,12 +31,11 @@ The keys are the fields of `RobotDescription`, with joint friction in a table [f
 import tomllib
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, fields, replace
-from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, Field, TypeAdapter, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import ModelError, problem, unknown
@@ -46,26 +45,10 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.urdf import Inertial, Tree, Triple, text_of
 from biped_adrc.model.robots.urdf_reader import read
 
-
-def _different(names: tuple[str, ...]) -> tuple[str, ...]:
-    """The names themselves. Raises ValueError where two are the same."""
-    if len(set(names)) < len(names):
-        raise ValueError(f"found {list(names)}, expected a list of different names")
-    return names
-
-
-def _rising(ends: tuple[float, float]) -> tuple[float, float]:
-    """The ends (lower, upper) of a range themselves. Raises ValueError unless the lower one is less."""
-    if not ends[0] < ends[1]:
-        raise ValueError(f"found {list(ends)}, expected the lower angle first")
-    return ends
-
-
 _Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[_Number, Field(gt=0.0)]
 NotNegative = Annotated[_Number, Field(ge=0.0)]
-Names = Annotated[tuple[str, ...], AfterValidator(_different)]
-Ends = Annotated[tuple[_Number, _Number], AfterValidator(_rising)]
+Names = tuple[str, ...]
 Rotors = NotNegative | tuple[NotNegative, ...]
 """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
 
@@ -82,8 +65,6 @@ class BodyParameters:
     """Moment of inertia about the COM and the axis y [kg m^2]."""
 
 
-ALONG = 1e-6
-"""Largest 1 - cos of the angle between an axis and y, x or z [1]."""
 GRAVITY = 9.81
 """Gravity [m/s^2] of a record that gives no other value."""
 
@@ -145,7 +126,7 @@ class RobotDescription(Shown):
     """Name of the preset that is used by default."""
     presets: Mapping[str, Preset]
     """Parameter sets by name."""
-    ranges: Mapping[str, Ends] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[_Number, _Number]] = field(default_factory=dict)
     """Lower and upper end [rad] by joint, for gait design alone; a walk is judged by what the URDF states."""
 
     @property
@@ -206,12 +187,34 @@ class RobotDescription(Shown):
             )
         return tree.with_inertials(inertials)
 
+    def check_planar(self, tree: Tree) -> None:
+        """Check that the joints of this record turn about y or -y in a tree, and that its base slides along +x
+        and +z.
+
+        Raises ModelError that names the joint, its axis and the expected one.
+        """
+        x, y, z = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+        axes: dict[str, Triple] = dict(zip(self.base, (x, z), strict=True))
+        joints = {joint.name: joint for joint in tree.joints}
+        for name, axis in (axes | dict.fromkeys(self.joints, y)).items():
+            kind, joint = "revolute" if axis == y else "prismatic", joints.get(name)
+            along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
+            # a revolute joint may turn about -y, a slide must not be turned round
+            off = 1.0 - (abs(along) if kind == "revolute" else along)
+            # 1 - cos of the angle between the axes
+            if joint is None or joint.type != kind or not abs(off) <= 1e-6:
+                there = joint and f"{joint.type} along {text_of(joint.axis)}"
+                raise ModelError(
+                    f"'{tree.source}': joint '{name}' of the record of robot '{self.name}' is "
+                    f"{there or f'missing in {list(joints)}'}, expected {kind} along {text_of(axis)}: a planar "
+                    "robot moves in x and z"
+                )
+
 
 _READER = TypeAdapter(RobotDescription)
 """Reads a record from TOML's tables, by the types of its fields."""
 RECORD_KEYS = {f.name for f in fields(RobotDescription)} - {"viscous", "static"} | {"friction"}
-BODY_KEYS = [f.name for f in fields(BodyParameters)]
-"""RECORD_KEYS are the keys of a record, BODY_KEYS those of a body in a preset."""
+"""Keys of a record."""
 
 
 def robot_names() -> tuple[str, ...]:
@@ -273,17 +276,15 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         for key, (row, count) in rows.items():
             if len(row) != count:
                 raise ValueError(f"{key} is {list(row)}, expected {count} finite numbers")
-        bodies = (*chain(*d.links.values()),)
-        for what, names in {
-            "joints": (*d.joints, *d.base),
-            "feet": d.feet,
-            "links": bodies,
-        }.items():
+        lists = {"joints": (*d.joints, *d.base), "feet": d.feet, "links": sum(d.links.values(), ())}
+        for what, names in lists.items():
             if len(set(names)) < len(names):
                 raise ValueError(f"the {what} are {names}, expected a list of different names")
         for key, table in (("ranges", d.ranges), ("friction", {**d.viscous, **d.static})):
             if others := sorted(set(table) - set(d.joints)):
                 raise ValueError(f"{key} names {others}, the joints are {list(d.joints)}")
+        if falling := {x: list(ends) for x, ends in d.ranges.items() if not ends[0] < ends[1]}:
+            raise ValueError(f"ranges are {falling}, expected the lower angle first")
         if d.phase[-1] == 0.0:  # Theta is an absolute angle, so the pitch has a part in it
             raise ValueError(f"phase is {list(d.phase)}; the last number must not be 0")
         return d
@@ -306,32 +307,8 @@ def _preset(name: str, value: object, links: Mapping[str, Any]) -> dict[str, Any
 
     links: the record's table of bodies. Raises ValueError for unknown keys, KeyError for a missing body.
     """
-    record, keys = _table(f"presets.{name}", value, (*links, "armature", "source")), BODY_KEYS
+    record = _table(f"presets.{name}", value, (*links, "armature", "source"))
+    keys = [f.name for f in fields(BodyParameters)]
     all_or_none = links if any(x in record for x in links) else ()
     bodies = {x: _table(f"presets.{name}.{x}", record[x], keys) for x in all_or_none}
     return {**record, "name": name, "bodies": bodies}
-
-
-def check_planar(tree: Tree, d: RobotDescription) -> None:
-    """Check that the joints of the record `d` turn about y or -y, and that its base slides along +x and +z.
-
-    Raises ModelError that names the joint, its axis and the expected one.
-    """
-    x, y, z = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    axes: dict[str, Triple] = {d.base[0]: x, d.base[1]: z, **dict.fromkeys(d.joints, y)}
-    joints = {joint.name: joint for joint in tree.joints}
-    for name, axis in axes.items():
-        kind = "revolute" if axis == y else "prismatic"
-        joint = joints.get(name)
-        along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
-        # a revolute joint may turn about -y, a slide must not be turned round
-        off = 1.0 - (abs(along) if kind == "revolute" else along)
-        # ALONG is of 1 - cos
-        if joint is None or joint.type != kind or not abs(off) <= ALONG:
-            text = f"missing in {list(joints)}"
-            if joint is not None:
-                text = f"{joint.type} along {text_of(joint.axis)}"
-            raise ModelError(
-                f"'{tree.source}': joint '{name}' of the record of robot '{d.name}' is {text}, expected "
-                f"{kind} along {text_of(axis)}: a planar robot moves in x and z"
-            )

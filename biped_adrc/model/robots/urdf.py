@@ -285,9 +285,6 @@ def check_inertial(inertial: Inertial, where: str) -> None:
 
 
 _EXACT = 1e-9  # largest residual of A R = P A, and of the relative difference of equal legs, dimensionless
-_LEAST = 1e-6  # [kg], [kg m^2], [m], smaller numbers of the legs differ by round-off
-ALIKE = 0.01
-"""Largest relative difference of the legs in a file whose mean is taken, dimensionless."""
 
 
 def way(tree: Tree, feet: tuple[str, str]) -> list[tuple[Joint, str]]:
@@ -387,8 +384,8 @@ def unlike(tree: Tree, feet: tuple[str, str]) -> dict[tuple[str, str], float]:
         a, b = (_in_plane(tree, link) for link in pair)
         # lengths of the four parts, of the difference and of either twin
         gap, *sizes = (np.sqrt(np.add.reduceat(x * x, starts)) for x in (a - b, a, b))
-        # _LEAST: no division by numbers near zero
-        gaps[pair] = float(np.max(gap / np.maximum(np.maximum(*sizes), _LEAST)))
+        # below 1e-6 kg, kg m^2 or m the legs differ by round-off
+        gaps[pair] = float(np.max(gap / np.maximum(np.maximum(*sizes), 1e-6)))
     return {pair: gap for pair, gap in gaps.items() if gap > _EXACT}
 
 
@@ -407,11 +404,11 @@ def _in_plane(tree: Tree, link: str) -> Array:
 def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     """The tree in which both legs have the mean of their masses, moments, COMs and lengths, and a note on it.
 
-    This is done only where they differ by at most ALIKE, as in exports of CAD; else the result is the tree
+    This is done only where they differ by at most 1 %, as in exports of CAD; else the result is the tree
     itself without a note.
     """
     gaps = unlike(tree, feet)
-    if not gaps or max(gaps.values()) > ALIKE:
+    if not gaps or max(gaps.values()) > 0.01:
         return tree, ()
     links, joints = dict(tree.links), {joint.child: joint for joint in tree.joints}
     for pair in gaps:

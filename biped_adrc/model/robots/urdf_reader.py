@@ -42,19 +42,10 @@ MOST_LINKS = 200
 _LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
-_FORMATS = {"mujoco": "MJCF, <mujoco>", "sdf": "SDF, <sdf>"}
 PLANAR = 1e-4
 """Largest deviation of an axis from the plane, since rpy is rounded in files, dimensionless."""
-_SMALLEST = 1e-9
-"""Least size of a shape [m]."""
-_ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
-_UPRIGHT = 1e-6  # how far a shape's axes may be from the frame's, dimensionless
-_SLENDER = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.05])  # moments of a link along z over its iyy
 _CIRCULAR = ("revolute", "continuous")
-_USED = re.compile(
-    "link|joint|transmission|inertial|visual|origin|parent|child|axis|limit|dynamics"
-)
 
 
 @dataclass(frozen=True)
@@ -94,9 +85,10 @@ def parse(path: Path) -> ET.Element:
         element.tag = element.tag.removeprefix(space)
     count = len(root.findall("link"))
     if root.tag != "robot" or count > MOST_LINKS:
-        what = _FORMATS.get(root.tag, f"<{root.tag}>")
+        formats = {"mujoco": "MJCF, <mujoco>", "sdf": "SDF, <sdf>"}
         raise ModelError(
-            f"{what} with {count} links, expected a URDF, <robot> with at most {MOST_LINKS} links"
+            f"{formats.get(root.tag, f'<{root.tag}>')} with {count} links, expected a URDF, <robot> with at "
+            f"most {MOST_LINKS} links"
         )
     root.set("name", root.get("name", path.stem))
     return root
@@ -152,8 +144,8 @@ def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[No
     shapes = zip(bodies, links.values(), strict=True)
     undrawn = [x.name for e, x in shapes if len(e.findall("visual")) > len(x.visuals)]
     parts = (child.tag for e in (robot, *bodies, *robot.findall("joint")) for child in e)
-    # _USED: the elements that are read
-    other = Counter(tag for tag in parts if not _USED.fullmatch(tag))
+    used = "link|joint|transmission|inertial|visual|origin|parent|child|axis|limit|dynamics"
+    other = Counter(tag for tag in parts if not re.fullmatch(used, tag))
     # (kind, what was found, text): no note where it is 0 or empty
     notes = (
         ("assumed", yaw, f"direction: turned about z by {yaw:g} rad, so that axes are y"),
@@ -280,9 +272,7 @@ def _turns(
     return turns
 
 
-def _yaw(
-    joints: list[ET.Element], ends: list[tuple[str, str]], turns: Mapping[str, Array]
-) -> float:
+def _yaw(joints: list[ET.Element], ends: list[tuple[str, str]], turns: dict[str, Array]) -> float:
     """Angle [rad] by which the robot must turn about z, so that the axis of its first revolute or continuous
     joint is y or -y; 0 if it is so already, or the axis is not horizontal.
 
@@ -353,8 +343,9 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
     flat = bool(yy > 0.0 and np.all(np.abs(np.delete(moments, 3)) <= _ROUND_OFF * yy))
-    # _SLENDER: moments of a slender link, in place of a body that has one about y alone
-    return Inertial(mass, com, tuple((yy * _SLENDER if flat else moments).tolist()))
+    # moments of a slender link along z over its iyy, in place of a body that has one about y alone
+    slender = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.05])
+    return Inertial(mass, com, tuple((yy * slender if flat else moments).tolist()))
 
 
 def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
@@ -368,12 +359,12 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     # the permutation of axes next to the turn; a cylinder must only have its axis along z
     axes = np.asarray(np.round(np.abs(turn)), dtype=np.float64)
     oblique = {"box": np.max(np.abs(np.abs(turn) - axes)), "cylinder": 1.0 - abs(turn[2, 2])}
-    if not abs(oblique.get(shape.tag, 0.0)) < _UPRIGHT:
+    if not abs(oblique.get(shape.tag, 0.0)) < 1e-6:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
     count, keys = 3 if box else 1, urdf.GEOMETRY_SIZES[shape.tag]
-    # the tuples of numbers of its attributes, joined to one
-    size = sum((_numbers(shape, key, "", count, where, _SMALLEST) for key in keys), ())
+    # the tuples of numbers of its attributes, joined to one; none is below 1e-9 m
+    size = sum((_numbers(shape, key, "", count, where, 1e-9) for key in keys), ())
     rgba = _numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
     size = vector(axes @ size) if box else size
     return Visual(shape.tag, size, place, tuple(np.clip(rgba, 0.0, 1.0).tolist()))
@@ -393,7 +384,7 @@ def _joint(element: ET.Element, turns: Mapping[str, Array], parent: str, child: 
         )
     axis_element = None if kind in ("fixed", "floating") else element.find("axis")
     axis = np.array(_numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
-    if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
+    if abs(math.hypot(*axis) - 1.0) > 1e-6:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":  # <axis> is in the child's frame
         axis = turns[child] @ axis
