@@ -64,7 +64,7 @@ def tracking_figure(
         for k, joints in enumerate(halves):
             axes = figure.add_subplot(spec[0, k * width : (k + 1) * width])
             _zoom([over_time.joint_tracking(axes, signals, joints, push)], signals, push)
-        _around_and_edges(figure, spec, (1, 2), below, signals, push)
+        _around_and_edges(spec, (1, 2), below, signals, push)
         return figure
 
 
@@ -100,12 +100,7 @@ def _column(
 
 
 def _around_and_edges(
-    figure: FigureBase,
-    spec: Any,
-    rows: Sequence[int],
-    draws: Sequence[Panel],
-    s: Signals,
-    push: Window | None,
+    spec: Any, rows: Sequence[int], draws: Sequence[Panel], s: Signals, push: Window | None
 ) -> list[list[Axes]]:
     """Draw each of `draws` in a row of three columns: around the push, where it begins, and where it ends.
 
@@ -116,7 +111,7 @@ def _around_and_edges(
     """
     places = (slice(0, 2), slice(2, 3), slice(3, 4)) if push else (slice(0, 4),)
     cells = ([spec[row, place] for row in rows] for place in places)
-    around, *edges = (_column(figure, each, draws) for each in cells)
+    around, *edges = (_column(spec.figure, each, draws) for each in cells)
     _zoom(around, s, push)
     at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)  # a tick every 2 ms, the end included
     for column, edge, name in zip(edges, push or (), ("begins", "ends"), strict=False):
@@ -202,16 +197,12 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
             _zoom([over_time.total_disturbance(axes, signals, i, push)], signals, push)
         # a row, number 0, of three panels: around the push, where it begins, where it ends
         draw = partial(over_time.matched_disturbance, s=signals, push=push)
-        _around_and_edges(below, below.add_gridspec(1, 4), (0,), [draw], signals, push)
+        _around_and_edges(below.add_gridspec(1, 4), (0,), [draw], signals, push)
         return figure
 
 
 def ground_figure(
-    signals: Signals,
-    title: str = "",
-    mu: float = 0.6,
-    slope: float = 0.0,
-    push: Window | None = None,
+    signals: Signals, title: str, mu: float, slope: float, push: Window | None
 ) -> Figure:
     """Draw the ground reaction [N] over time, and its tangential against its normal part in the friction cone.
 
@@ -314,7 +305,7 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
         spec = figure.add_gridspec(2, 4)
         draw = partial(over_time.error_over_time, walks=walks, push=push)
         # one row, (0,), of up to three panels: around the push, and behind each of its edges
-        (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
+        (around,), *edges = _around_and_edges(spec, (0,), [draw], first, push)
         for (axes,) in edges:  # the same scale in all three panels
             axes.set_ylim(around.get_ylim())
         # two panels in row 1 of the grid
