@@ -72,11 +72,11 @@ def ground(axes: Axes, views: list[SideView]) -> None:
     lines = [view.scene.surface.line(low, high) for view in views]
     for line in {line.tobytes(): line for line in lines}.values():
         axes.plot(*line.T, color="black", lw=1.0, zorder=1)
-    for ends, light in views[-1].scene.surface.tiles(round(low / TILE), round(high / TILE)):
+    scene = views[-1].scene
+    for ends, light in scene.surface.tiles(round(low / TILE), round(high / TILE)):
         shade = "#c8c8c8" if light else "#9e9e9e"
         edge, top = ends.T
         axes.fill_between(edge, top - 0.05, top, color=shade, lw=0.0, zorder=0)
-    scene = views[-1].scene
     if scene.walker.stones is not None:
         half = scene.walker.stones.tolerance
         # a walk may have more or fewer footholds than stones
@@ -169,7 +169,7 @@ class DrawnWalk:
 
         A force as large as the robot's weight has the length `WEIGHT_LENGTH`; a short arrow has a small head.
         """
-        vector = self.view.metres_per_newton * force
+        vector = colours.WEIGHT_LENGTH / self.view.scene.biped.weight * force
         length, words = float(np.hypot(*vector)), ""
         if not math.isfinite(length):
             vector, length, words = np.zeros(2), 0.0, "no finite force, arrow cut"

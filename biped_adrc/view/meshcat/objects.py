@@ -133,8 +133,8 @@ def sole(biped: Biped) -> float:
 
 
 # -- what surrounds it -----------------------------------------------------------------------------
-def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> list[str]:
-    """Draw a flat plate under every stance foot; returns the names of their nodes, in order.
+def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> None:
+    """Draw a flat plate under every stance foot; the name of its node is the index of the foothold.
 
     depth [m]: of the plates below the footholds. opacity: 0 to 1.
     """
@@ -142,7 +142,6 @@ def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: flo
         plate = node[f"{k}"]
         plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
         plate.set_transform(under(scene.foothold(k), scene.walker.ground_slope, depth))
-    return [f"{k}" for k in range(len(scene.footholds))]
 
 
 def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0) -> Array:

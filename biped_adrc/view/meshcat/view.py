@@ -141,7 +141,7 @@ def _add_walk(
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
     draw.add_robot(robot, biped, opacity)
-    prints = draw.add_footprints(robot["footprints"], scene, depth, opacity)
+    draw.add_footprints(robot["footprints"], scene, depth, opacity)
     draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
     draw.add_trace(robot["foot_trace"], room, SWING, opacity)
     for arrow in ("ground_reaction", "other_reaction"):
@@ -163,7 +163,7 @@ def _add_walk(
         "rings": [f"{path}/{ring}/turn" for ring in rings],
         "arrows": [f"{path}/ground_reaction", f"{path}/other_reaction"],
         "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
-        "footprints": [f"{path}/footprints/{name}" for name in prints],
+        "footprints": [f"{path}/footprints/{k}" for k in range(len(scene.footholds))],
         "supports": [
             {
                 "number": arc.mode.step,
