@@ -26,7 +26,6 @@ marginal, and no verdict on the paper rests on it. The outcomes of a walk:
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple, Self
 
@@ -159,8 +158,7 @@ class MemberWalk(NamedTuple):
     step used."""
 
 
-@dataclass(frozen=True)
-class MemberOutcome:
+class MemberOutcome(NamedTuple):
     """The walks of a member under both controllers."""
 
     member: Member
@@ -192,7 +190,7 @@ def _at(
     """
     run = member.run(controller, **values)
     # without the push its values have no effect: equal ones let `usual_track` compute each such step once
-    usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
+    usual = member._replace(amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
     # "zero": the observer starts with xi^ = 0
     walks = in_two(run, member.start == "zero", share)
     one, other = track(walks[0]), usual_track(usual, controller, share)
@@ -265,7 +263,7 @@ class PushCell(NamedTuple):
         The fields of the push, and onset_ms; npd and adrc: outcome, status, reasons and `FORCES` of each walk
         at the integration step used, None for a force that is not finite; npd_word, adrc_word: `word_of`.
         """
-        result = asdict(self.push) | {"onset_ms": 1e3 * self.push.onset}
+        result = self.push._asdict() | {"onset_ms": 1e3 * self.push.onset}
         for name, o in (("npd", self.npd), ("adrc", self.adrc)):
             f = o.feasibility
             numbers = {x: getattr(f, x) for x in FORCES}

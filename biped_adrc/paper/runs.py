@@ -252,7 +252,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
     loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)  # all are real
     # `on_the_recipe` is a member with this push on gait (b)
-    member = replace(scenarios.on_the_recipe(preset), gait="published")
+    member = scenarios.on_the_recipe(preset)._replace(gait="published")
     return Order(
         float(np.max(np.abs(observer.gains))),
         float(np.max(np.abs(loop.noise(w)))),

@@ -48,8 +48,7 @@ VIEWS = ("side", "perspective")
 """Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
 
 
-@dataclass(frozen=True)
-class Surface:
+class Surface(NamedTuple):
     """The ground of a walk: a slope with steps down and up.
 
     slope [rad]: positive downhill. edges (E,) [m]: x of the steps of the ground, in increasing order. drops

@@ -20,7 +20,7 @@ that are read, as constants in double.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import casadi as ca
 
@@ -59,8 +59,7 @@ _PATTERNS: Patterns = {
 """Expression in C of each operation; {a}, {b}, {c} are its operands, and {F} is empty in double."""
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(NamedTuple):
     """A number in a C function: its name or constant in C, and whether it is a double even if `real` is not."""
 
     name: str
@@ -72,8 +71,7 @@ class Entry:
         return f"(real){self.name}" if self.double else self.name
 
 
-@dataclass(frozen=True)
-class CFunction:
+class CFunction(NamedTuple):
     """A function to write in C: its expression, and the names in C of its inputs and outputs."""
 
     function: SymbolicFunction
@@ -81,8 +79,7 @@ class CFunction:
     outputs: Sequence[str]
 
 
-@dataclass(frozen=True)
-class Written:
+class Written(NamedTuple):
     """The lines of C in the body of a function, and how many operations they have."""
 
     lines: tuple[str, ...]
