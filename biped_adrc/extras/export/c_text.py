@@ -187,6 +187,5 @@ def decimal(x: float) -> str:
     """Text in C of a double: the shortest decimals that are read back as the same bits, a negative one in
     parentheses; HUGE_VAL for infinity.
     """
-    if math.isinf(x):
-        return "HUGE_VAL" if x > 0.0 else "(-HUGE_VAL)"
-    return repr(float(x)) if math.copysign(1.0, x) > 0.0 else f"({float(x)!r})"
+    text = "HUGE_VAL" if math.isinf(x) else repr(abs(float(x)))
+    return text if math.copysign(1.0, x) > 0.0 else f"(-{text})"

@@ -5,7 +5,7 @@ The same scenario gives the same bytes: the text contains no date, machine or pa
 """
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -97,19 +97,20 @@ def source_of(
     # ARGUMENTS: function -> its arguments in C besides x, m and next
     traced = zip(ARGUMENTS, functions_.all, strict=True)
     written = {name: c_text(f, used) for name, f in traced}
+    # calls of sin and cos: those with F are of the type `real`, others in double even where that is float
+    calls = [line for f in written.values() for line in f.lines if "(sine)" in line]
     words = {
         **_of_robot(computer, functions_),
         "prefix": prefix,
         "P": prefix.upper(),
         "real": REALS[real],
         "sine": vars(sine),
-        "sine_wide": _sine_in_double(written.values()),
+        "sine_wide": any("F(sine)" not in line for line in calls) if calls else None,
         # the computer's plant is the model that the controller knows
         "numbers": [(names[i].replace("plant", "model", 1), decimal(values[i])) for i in used],
         "laws": [(name, ARGUMENTS[name], written[name].lines) for name in written],
         "scenario": scenario,
-        "operations": {name: f.operations for name, f in written.items()},
-        "doubles": {name: f.doubles for name, f in written.items()},
+        "step": written["step"],
     }
     texts = {"header.h": f"{prefix}.h", "source.c": f"{prefix}.c"}
     texts |= {name: name for name in ("main.c", "Makefile", "README.md", "LICENSE")}
@@ -186,12 +187,6 @@ def _rates(rates: tuple[int, ...], n: int) -> str:
 def rendered_c(template: str, words: Mapping[str, object]) -> str:
     """Text of a file: its template, filled in with `words`, the values that it names."""
     return _environment(Path(template).suffix).get_template(f"{template}.j2").render(words)
-
-
-def _sine_in_double(texts: Iterable[Written]) -> bool | None:
-    """Whether sin or cos is in double also if `real` is float; None where the text has neither."""
-    calls = [line for text in texts for line in text.lines if "(sine)" in line]
-    return any("F(sine)" not in line for line in calls) if calls else None
 
 
 @cache
