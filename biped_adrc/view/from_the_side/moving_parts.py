@@ -35,11 +35,6 @@ LETTER = 9.5
 """Width of a letter of 11 points [px], of the wide ones."""
 
 
-def blank(width: float, height: float) -> Figure:
-    """An empty figure of width x height [px]."""
-    return Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
-
-
 def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[Array]:
     """Draw the figure at the times (K,) [s]; returns the pixels (height, width, 3) of each, 0 to 255.
 

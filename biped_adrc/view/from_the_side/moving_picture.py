@@ -101,7 +101,8 @@ def moving_figure(
     solid = [[*group.values()][-1] for group in groups]
     tallest = max(draw.HEADROOM * view.height + draw.SOLE for view in solid)
     # a metre has the same number of pixels in width and in height
-    figure = draw.blank(width, share * width * tallest / shown)
+    size = width / draw.DPI, share * width * tallest / shown / draw.DPI
+    figure = Figure(figsize=size, dpi=draw.DPI)
     panels = [
         _panel(figure.add_axes((k * share, 0.0, share, 1.0)), group, pace, around)
         for k, group in enumerate(groups)
