@@ -100,7 +100,7 @@ def ports(source: Source) -> list[Port]:
     """
     # read: indices of the rates that the C reads at each sample instant; AS_READ has the text about that
     read, p = source.words["rates_read"], source.p
-    numbered = list(enumerate(source.words["joint_names"]))  # index and name of each joint
+    numbered = list(enumerate(source.words["joints"]))  # index and name of each joint
     landed = "becomes true at the first sample after a touchdown, from which on q, v and u have the new labels"
     flag = (
         "0, or why the step has no result: 1 not measured, 2 no number; u is held, and zero later"

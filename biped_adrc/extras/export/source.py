@@ -120,37 +120,20 @@ def source_of(
 
 def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
     """Values for the templates, by name: robot, controller, clock, and fields of the state's struct."""
-    walker, k = computer.walker, computer.robot
-    joints = walker.plant.description.joints
-    units = ["with a motor"] * k.p + ["without a motor"] * (k.n - k.p)
-    numbered = enumerate(zip(joints, units, strict=True))
-    limits = []
-    if walker.torque_limit is not None:
-        limits.append(f"at most {walker.torque_limit:g} N m")
-    # change: the limit of the torque's rate, times the period
-    if (change := computer.held.motors.change) is not None:
-        limits.append(f"changes of at most {change:g} N m in a period")
-    read = [f"m->v[{i}]" for i in functions_.rates]
+    walker, k, robot = computer.walker, computer.robot, computer.walker.plant.description
     return {
-        "title": f"Controller of the robot {walker.plant.description.name}, {type(walker.controller).__name__}",
+        "title": f"Controller of the robot {robot.name}, {type(walker.controller).__name__}",
         "about": _about(computer),
-        "joints": [f"q[{i}] {joint}, {unit}" for i, (joint, unit) in numbered],
-        "joint_names": joints,
+        "joints": robot.joints,
         "n": k.n,
         "p": k.p,
         "period": decimal(walker.clock.period),
         # an index from p on stands for a torque that changes its sign (`types.relabelled`)
         "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
         "rates_read": functions_.rates,
-        "rates": _rates(functions_.rates, k.n),
-        # C text of a test: x - x is 0 for a finite x alone
-        "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",
-        "limits": "".join(f", {x}" for x in limits),
-        "clock": (
-            "at the same instant, which restarts the clock of sample instants"
-            if walker.clock.restart
-            else "at the next sample instant"
-        ),
+        "torque_limit": walker.torque_limit,
+        "change": computer.held.motors.change,  # the limit of the torque's rate, times the period
+        "restart": walker.clock.restart,
         "fields": functions_.fields,
         # fields with torques on their way to the motors
         "line": ("queue", "waiting", "acting"),
@@ -172,16 +155,6 @@ def _about(computer: Computer) -> list[str]:
     if walker.touchdown is not None:
         lines.append("How a touchdown is noticed is left to the caller.")
     return lines
-
-
-def _rates(rates: tuple[int, ...], n: int) -> str:
-    """Sentence for the header on which of the n rates v have to be measured; rates: indices of those that
-    `step` reads.
-    """
-    if len(rates) == n:
-        return "v are their rates."
-    read = ", ".join(f"v[{i}]" for i in rates) or "none"
-    return f"v are their rates; init reads all of them, zero at rest; step reads {read}."
 
 
 def rendered_c(template: str, words: Mapping[str, object]) -> str:
