@@ -49,7 +49,7 @@ from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.HEAVIER), "torso")
 """Names of the walks in which NPD and ADRC are compared: pushed, sampled, with a plant heavier than the
 model."""
-PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
+PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.reproduction", "biped_adrc.engine.batch")
 """Modules that the processes of a reproduction share."""
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; without pushes no signal is faster."""
