@@ -200,20 +200,16 @@ def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
     values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
     # more numbers for the texts, by name, from the function that the table names
     values |= _function(said["values"])(r) if "values" in said else {}
-    number, reason, finding = (
-        str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")
-    )
+    names = ("claim", "number", "reason", "finding")
+    share = sum(c.kept for c in of_claim) / max(len(of_claim), 1)
     return Claim(
-        said["claim"].format(**values),
-        said["where"],
-        word,
-        number,
-        f"{said['metric']} {bound}" if bound else "",
-        share_text(of_claim, word == "depends"),
-        reason,
-        finding,
-        sum(c.kept for c in of_claim) / max(len(of_claim), 1) if said.get("asserted") else None,
-        sum(c.marginal for c in of_claim),
+        where=said["where"],
+        word=word,
+        limit=f"{said['metric']} {bound}" if bound else "",
+        share=share_text(of_claim, word == "depends"),
+        asserted=share if said.get("asserted") else None,
+        marginal=sum(c.marginal for c in of_claim),
+        **{name: str(said.get(name, "")).format(**values) for name in names},
     )
 
 

@@ -137,9 +137,8 @@ def of_heavier(r: Runs) -> dict[str, object]:
 
 def of_orders(r: Runs) -> dict[str, object]:
     """Values that compare the observer of Table I (m = 7) with two of m = 1, of equal bandwidth and of equal
-    delay margin: gains, delay margins [us] of Table I and [ms] at equal bandwidth, the bandwidth [rad/s] at
-    equal delay margin, peak errors [rad] under a push, and errors per disturbance at 5 Hz [s^2] of Table I
-    (slow) and at equal delay margin (other).
+    delay margin: gains, delay margins [us] of Table I and [ms] at equal bandwidth, peak errors [rad] under a
+    push, and the numbers (`Order`) of Table I and of equal delay margin.
     """
     orders = next(iter(r.orders.values()))  # computed for one preset
     # of Table I; m = 1 of the same bandwidth; m = 1 of the same delay margin
@@ -149,10 +148,9 @@ def of_orders(r: Runs) -> dict[str, object]:
         "gains": "; ".join(shown),
         "margin": 1e6 * table.delay_margin,
         "bandwidth_margin": 1e3 * band.delay_margin,
-        "bandwidth": delay.bandwidth,
         "errors": ", ".join(f"{name} {o.pushed.at_half:.1e}" for name, o in orders.items()),
-        "slow": table.slow,
-        "other": delay.slow,
+        "table": table,
+        "delay": delay,
     }
 
 
