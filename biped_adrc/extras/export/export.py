@@ -22,7 +22,6 @@ import platform
 import uuid
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -53,8 +52,7 @@ class Port(NamedTuple):
     """Description of the port."""
 
 
-@dataclass(frozen=True)
-class Fmu:
+class Fmu(NamedTuple):
     """The files of an FMU, by their path inside."""
 
     name: str

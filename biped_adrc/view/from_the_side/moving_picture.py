@@ -29,11 +29,9 @@ from biped_adrc.core.types import Array
 from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE, TRUNK
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView
-from biped_adrc.view.placement import Clip, Drawable, WalkScene, check_frames, ending
+from biped_adrc.view.placement import GHOST, Clip, Drawable, WalkScene, check_frames, ending
 from biped_adrc.view.style import label, literal, new_figure, style, write_figure
 
-_GHOST = 0.35
-"""Opacity of all walks but the solid one."""
 WIDTH, SHOWN = 600, 2.6
 """Width of the picture of walks laid over one another [px], [m]."""
 WIDE, PANEL = 800, 1.5
@@ -131,7 +129,7 @@ def _panel(
     draw.ground(axes, list(views.values()))
     # each walk has a layer, from 2 on, since the ground is drawn in those below
     drawn = [
-        draw.DrawnWalk(axes, view, 1.0 if view is last else _GHOST, k)
+        draw.DrawnWalk(axes, view, 1.0 if view is last else GHOST, k)
         for k, view in enumerate(views.values(), start=2)
     ]
     caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid

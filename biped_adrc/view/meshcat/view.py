@@ -18,7 +18,6 @@ from __future__ import annotations
 import base64
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,8 +32,6 @@ from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.pages import with_viewer
 from biped_adrc.view.placement import Clip, Drawable, WalkScene, ending, exchanged, joint_values
 
-_GHOST = 0.35
-"""Opacity of a ghost (1 is solid)."""
 LANE = 0.4
 """Distance [m] of each ghost from the walk before it, away from the camera: equal planes would flicker."""
 _FPS = 60.0
@@ -94,7 +91,7 @@ def scene_settings(
     viewer = window.viewer
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
-        opacity, sampled = (1.0 if lane == 0 else _GHOST), (frames or {}).get(name)
+        opacity, sampled = (1.0 if lane == 0 else placement.GHOST), (frames or {}).get(name)
         # the traces of hip and swing foot get a point at each sample
         room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
@@ -130,7 +127,8 @@ def _add_walk(
     path: of the node `robot`. opacity: 0 to 1. room: number of points that each trace has room for.
 
         joints        path, type, axis and origin [m] of each moving joint, in the order of the samples
-        legs          paths of the parts of either leg; colours: of stance and swing leg, 0xRRGGBB
+        legs          paths of the parts of the leg that carries odd steps, and of the other; they get the
+                      colours of stance and swing leg, 0xRRGGBB, which are exchanged at impact
         rings, arrows, traces, footprints    paths of these; arrows of stance foot and other foot
         supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
         fall          tan(slope); ground: its height over the footholds [m], negative
@@ -140,6 +138,7 @@ def _add_walk(
     # depth: radius of the ball that is drawn as a foot, by which the ground lies below the footholds
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
+    drawn = [(f"{path}/{part}", link) for part, link in draw.visual_links(tree)]
     draw.add_robot(robot, biped, opacity)
     draw.add_footprints(robot["footprints"], scene, depth, opacity)
     draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
@@ -158,7 +157,7 @@ def _add_walk(
             for joint in tree.joints
             if joint.type != "fixed"
         ],
-        "legs": [[f"{path}/{part}" for part in leg] for leg in draw.leg_visuals(biped)],
+        "legs": [[path for path, link in drawn if link in leg] for leg in placement.legs(biped)],
         "colours": [draw.colour(STANCE), draw.colour(SWING)],
         "rings": [f"{path}/{ring}/turn" for ring in rings],
         "arrows": [f"{path}/ground_reaction", f"{path}/other_reaction"],
@@ -236,8 +235,7 @@ class Pose(NamedTuple):
     """(5,): x, z of the stance foot [m], force on the other foot along x, z [N], and 1 where a foot slips."""
 
 
-@dataclass(frozen=True)
-class Frames:
+class Frames(NamedTuple):
     """A walk in K samples, one in each row; at an impact there are two, before and after it."""
 
     t: Array
