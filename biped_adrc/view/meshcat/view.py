@@ -157,7 +157,7 @@ def _add_walk(
             for joint in tree.joints
             if joint.type != "fixed"
         ],
-        "legs": [[path for path, link in drawn if link in leg] for leg in placement.legs(biped)],
+        "legs": [[part for part, link in drawn if link in leg] for leg in placement.legs(biped)],
         "colours": [draw.colour(STANCE), draw.colour(SWING)],
         "rings": [f"{path}/{ring}/turn" for ring in rings],
         "arrows": [f"{path}/ground_reaction", f"{path}/other_reaction"],
