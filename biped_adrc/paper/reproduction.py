@@ -64,11 +64,7 @@ _WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
 
 
 def reproduce(
-    plan: Plan,
-    out: Path,
-    command: str,
-    workers: int | None = None,
-    progress: TaskProgress | None = None,
+    plan: Plan, out: Path, command: str, workers: int | None, progress: TaskProgress | None
 ) -> dict[str, Any]:
     """Run the plan and write everything to the folder `out`; returns what summary.json holds.
 

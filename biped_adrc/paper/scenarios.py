@@ -359,8 +359,7 @@ def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
     limits = (None, 150.0) if plan.full else (150.0,)
     k, patterns = declared()["map"], [*declared()["map"]["patterns"]]
     onsets, amplitudes = (k["onsets"], k["amplitudes"]) if plan.full else ((0.3,), (150.0,))
-    for preset, limit in itertools.product(plan.presets, limits):
-        parts = [[of] for of in patterns] if plan.full else [patterns]
-        for part in parts:
-            every = itertools.product(part, amplitudes, onsets)
-            yield [MapPush(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]
+    parts = [[of] for of in patterns] if plan.full else [patterns]
+    for preset, limit, part in itertools.product(plan.presets, limits, parts):
+        every = itertools.product(part, amplitudes, onsets)
+        yield [MapPush(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]

@@ -43,7 +43,9 @@ from biped_adrc.view.placement import TILE, joint_values, link_placements
 from biped_adrc.view.style import GREY
 
 Infos = dict[str, Any]
-"""Gymnasium's further results by name, and its options of `reset`, of which these environments have none."""
+"""Gymnasium's further results by name."""
+Options = dict[str, Any] | None
+"""Gymnasium's options of `reset`, of which these environments have none."""
 PICTURES: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 1000}
 """Gymnasium's description of the pictures of `render`."""
 
@@ -56,7 +58,7 @@ def spaces_of(stage: Stage) -> tuple[Box, Box]:
     return observations, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
 
 
-def check_options(options: Infos | None) -> None:
+def check_options(options: Options) -> None:
     """Raise InputError if Gymnasium's `reset` is called with options, as this environment has none."""
     if options:
         raise InputError(f"reset has the options {sorted(options)}, expected none")
@@ -87,9 +89,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         self.observation_space, self.action_space = spaces_of(self.stage)
         self.picture = Picture(self.stage) if render_mode else None
 
-    def reset(
-        self, *, seed: int | None = None, options: Infos | None = None
-    ) -> tuple[Array, Infos]:
+    def reset(self, *, seed: int | None = None, options: Options = None) -> tuple[Array, Infos]:
         """Begin the walk anew with this seed, or one that is drawn; returns the first observation and the info
         (`Stage.infos`).
 
@@ -153,7 +153,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         self.picture = Picture(self.stage) if render_mode else None
 
     def reset(
-        self, *, seed: int | Sequence[int | None] | None = None, options: Infos | None = None
+        self, *, seed: int | Sequence[int | None] | None = None, options: Options = None
     ) -> tuple[Array, Infos]:
         """Begin all walks anew; returns the first observations (N, ..), a row for each walk, and the infos.
 

@@ -242,9 +242,7 @@ def multiplier_plane(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
     return axes
 
 
-def magnitudes(
-    axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
-) -> Axes:
+def magnitudes(axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None) -> Axes:
     """Draw |lambda| of multipliers, in decreasing order, on a logarithmic scale; returns the axes. A walk is
     stable when all are below 1.
 
@@ -277,9 +275,7 @@ def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) 
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 
-def multiplier_figure(
-    multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
-) -> Figure:
+def multiplier_figure(multipliers: Mapping[str, ArrayLike], published: ArrayLike | None) -> Figure:
     """Draw Floquet multipliers in the unit circle, and beside it their magnitudes in decreasing order: a walk
     is stable if all are inside.
 
