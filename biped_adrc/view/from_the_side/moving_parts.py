@@ -171,10 +171,8 @@ class DrawnWalk:
         elif length > colours.LONGEST_ARROW:
             vector, length = colours.LONGEST_ARROW / length * vector, colours.LONGEST_ARROW
             words = f"{np.hypot(*force):.3g} N, arrow cut"
-        self.arrows[k].set_visible(length > 0.0)
-        head = min(0.09, length)
+        arrow, head = self.arrows[k], min(0.09, length)
+        arrow.set_visible(length > 0.0)
         x, y, dx, dy = (*start, *vector)
-        self.arrows[k].set_data(
-            x=x, y=y, dx=dx, dy=dy, head_width=0.07 * head / 0.09, head_length=head
-        )
+        arrow.set_data(x=x, y=y, dx=dx, dy=dy, head_width=0.07 * head / 0.09, head_length=head)
         return vector, words
