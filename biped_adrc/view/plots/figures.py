@@ -143,16 +143,13 @@ def _limits(column: Sequence[Axes], low: float, high: float) -> None:
         axes.set_xlim(low, high)
         shown = [np.asarray(line.get_data(), dtype=float) for line in axes.get_lines()]
         # lines of two points are marks, such as that of an impact, and no data
-        values = [y[(t >= low) & (t <= high)] for t, y in shown if len(t) > 2]
-        values = [y[np.isfinite(y)] for y in values]
-        ends = np.array([(y.min(), y.max()) for y in values if len(y)])
-        if not len(ends) or not ends[:, 1].max() > ends[:, 0].min():
-            continue
-        if axes.get_yscale() == "log":
-            axes.set_ylim(0.5 * ends[:, 0].min(), 2.0 * ends[:, 1].max())
-            continue
-        pad = 0.06 * (ends[:, 1].max() - ends[:, 0].min())
-        axes.set_ylim(ends[:, 0].min() - pad, ends[:, 1].max() + pad)
+        inside = (y[(t >= low) & (t <= high)] for t, y in shown if len(t) > 2)
+        values = np.concatenate([np.zeros(0), *inside])
+        values = values[np.isfinite(values)]
+        least, most = values.min(initial=np.inf), values.max(initial=-np.inf)
+        if most > least:
+            pad, log = 0.06 * (most - least), axes.get_yscale() == "log"
+            axes.set_ylim((0.5 * least, 2.0 * most) if log else (least - pad, most + pad))
 
 
 def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
