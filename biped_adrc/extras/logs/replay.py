@@ -325,8 +325,7 @@ def replay(
             f"the log has {has[0]} angles and {has[1]} torques, expected {wants[0]} and {wants[1]} of robot "
             f"'{scenario.robot.name}'"
         )
-    remarks = *result.remarks, *check_reading(result, scene.biped)
-    result = replace(result, remarks=remarks)
+    result = replace(result, remarks=(*result.remarks, *check_reading(result, scene.biped)))
     period = scenario.hardware.period or result.period
     if not result.even(period):
         result = result.resampled(period)
