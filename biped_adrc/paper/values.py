@@ -40,8 +40,8 @@ from biped_adrc.paper.scenarios import CONTROLLERS, declared
 def of_headline(r: Runs) -> dict[str, object]:
     """How both controllers walk under the push of the headline runs.
 
-    npd, adrc: their outcomes. slow: that of ADRC when the push rises and falls in 10 ms. asked: impacts asked
-    for. pushes: the pushes in words. words: how feasible the walks are. errors: text of the peak errors.
+    npd, adrc: their outcomes. slow: that of ADRC when the push rises and falls in 10 ms. pushes: the pushes in
+    words. words: how feasible the walks are. errors: text of the peak errors.
     """
     npd, adrc = r.pair("push")
     slow = r.pair("rising push")
@@ -50,7 +50,6 @@ def of_headline(r: Runs) -> dict[str, object]:
         "npd": npd,
         "adrc": adrc,
         "slow": slow[1],
-        "asked": npd.run.run.impacts,
         "pushes": "; ".join(push.in_words() for push in r.plan.pushes),
         "words": ", ".join(f"{c} {x}" for c, x in word.items()),
         "errors": f"{1e3 * npd.peak_error:.3g} mrad under NPD, {1e3 * adrc.peak_error:.2g} mrad under ADRC",

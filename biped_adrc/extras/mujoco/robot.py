@@ -139,9 +139,7 @@ def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) 
         ET.SubElement(body, "inertial", {"pos": text(inertial.com)} | full)
     # [N m s/rad] and [N m] by coordinate; zero for a robot without friction (biped.friction False)
     viscous, static = np.array(biped.friction_coefficients) * biped.friction
-    for joint in joints:
-        if joint.type == "fixed":
-            continue
+    for joint in (x for x in joints if x.type != "fixed"):
         # _KINDS: type of a joint -> MuJoCo's type
         own = {"name": joint.name, "type": _KINDS[joint.type], "axis": text(joint.axis)}
         if joint.name in d.actuated:
