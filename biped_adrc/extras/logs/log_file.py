@@ -133,8 +133,8 @@ def _check_pairs(measured: Flags, biped: Biped) -> None:
     # R (n, n), q+ = R q-, exchanges the names of the legs: it has an entry i, j where v_j becomes v_i
     for i, j in np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured)[:1] + 1:
         raise InputError(
-            f"the log has v{i} and not v{j}, of which it is made when the legs are exchanged; expected both, or "
-            "none of them"
+            f"the log has v{i} and not v{j}, of which it is made when the legs are exchanged; expected both, "
+            "or none of them"
         )
 
 
