@@ -107,8 +107,7 @@ def _headline(run: Scenario) -> Headline:
     # with half the integration step nodes are kept at half the distance, so that the outcomes differ as those
     # of all nodes would; walk_laws: violated laws of physics
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
-    outcome = replace(walk.outcome, half=at_half)
-    return Headline(outcome, walk.trajectory, walk_laws(walk))
+    return Headline(replace(walk.outcome, half=at_half), walk.trajectory, walk_laws(walk))
 
 
 def engines(one: Scenario, other: Scenario) -> float:

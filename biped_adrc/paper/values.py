@@ -213,8 +213,7 @@ def noise_spectrum() -> Array:
     random = np.random.default_rng(k["seed"])
     # the seed and the numbers of draws and impacts are declared in admissible.toml; the fixed point is 0 here
     draws = (random.normal(size=(k["impacts"], n)) for _ in range(k["draws"]))
-    result = [regress_multipliers(x, np.zeros(n)).magnitudes for x in draws]
-    return np.median(result, axis=0)
+    return np.median([regress_multipliers(x, np.zeros(n)).magnitudes for x in draws], axis=0)
 
 
 def of_printed(r: Runs) -> dict[str, object]:

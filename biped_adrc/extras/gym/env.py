@@ -114,8 +114,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
             raise InputError("there is no walk that goes on; call reset() first")
         stage.move(finite_numbers("action", action, (stage.plant.p,))[np.newaxis])
         fallen, late = (bool(over[0]) for over in stage.ended())
-        reward = float(stage.rewards()[0])
-        return stage.observations()[0], reward, fallen, late, self._info()
+        return stage.observations()[0], float(stage.rewards()[0]), fallen, late, self._info()
 
     def _info(self) -> Infos:
         """The entries of `Stage.infos` of the only walk, as plain numbers and text."""

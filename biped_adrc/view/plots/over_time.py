@@ -100,8 +100,7 @@ def joint_name(s: Signals, i: int) -> str:
     """Name of actuated joint i (from 0) in a legend: such as "$q_1$ stance hip" with four actuated joints,
     which are taken for those of a five-link biped; else the symbol alone.
     """
-    known = s.q_d.shape[1] == len(JOINTS)
-    return f"$q_{i + 1}$ {JOINTS[i]}" if known else f"$q_{i + 1}$"
+    return f"$q_{i + 1}$ {JOINTS[i]}" if s.q_d.shape[1] == len(JOINTS) else f"$q_{i + 1}$"
 
 
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
