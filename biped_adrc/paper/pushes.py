@@ -40,8 +40,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.paper import scenarios
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, MapPush, Member
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, MapPush, Member, by_rk4
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.integration import WalkPart, methods_of, runs_in_parts
 from biped_adrc.scenario.recording import Outcome, Walk
@@ -100,7 +99,7 @@ def scene_in(preset: str | None, gait: str) -> RobotAndGait:
     """The robot RABBIT in a preset (a set of masses; a scenario of the reproduction always names one) and one
     of its gaits, read once for many walks."""
     # a scenario needs a controller; which one has no effect on robot and gait
-    return RobotAndGait.of(scenarios.by_rk4("NPD", str(preset), gait=gait))
+    return RobotAndGait.of(by_rk4("NPD", str(preset), gait=gait))
 
 
 def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:

@@ -40,7 +40,6 @@ from biped_adrc.paper import scenarios
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare
 from biped_adrc.paper.pushes import MemberOutcome, PushCell, member_outcomes, member_walk, push_map
-from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
@@ -153,7 +152,7 @@ def starts(preset: str) -> list[Start]:
     """
     least, result = least_speed(preset), []
     for k in scenarios.declared()["basin"]["factors"]:
-        runs = {c: scenarios.starting(c, preset, k * least) for c in CONTROLLERS}
+        runs = {c: scenarios.starting(c, preset, k * least) for c in scenarios.CONTROLLERS}
         result.append(Start(least, k, {c: execute_twice(run) for c, run in runs.items()}))
     return result
 
@@ -263,7 +262,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
 
 
 # -- tasks -----------------------------------------------------------------------------------------
-def tasks(plan: Plan) -> dict[str, Task[object]]:
+def tasks(plan: scenarios.Plan) -> dict[str, Task[object]]:
     """Everything to compute, by "kind/name", about the longest first so that no core waits at the end."""
     result: dict[str, Task[object]] = {}
 
@@ -272,7 +271,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 
     for preset in plan.presets:
         add("members", preset, member_outcomes, scenarios.members(preset))
-    for c in reversed(CONTROLLERS):  # ADRC takes longer, so it is first
+    for c in reversed(scenarios.CONTROLLERS):  # ADRC takes longer, so it is first
         add("headline", c, _headline, scenarios.pushed_run(plan, c))
         add("engines", c, engines, *scenarios.engine_runs(plan, c))
     add("numerics", plan.preset, numerics_laws, plan.preset)
@@ -299,7 +298,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 class Runs:
     """The results of a reproduction: for each kind of task a dictionary by name."""
 
-    plan: Plan
+    plan: scenarios.Plan
     """The plan that was carried out."""
     headline: Mapping[str, Headline] = field(default_factory=dict)
     """The pushed walks, by controller."""
@@ -331,7 +330,7 @@ class Runs:
     """Figures of the numerical methods, one entry."""
 
     @classmethod
-    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Self:
+    def of(cls, plan: scenarios.Plan, values: Mapping[str, Any]) -> Self:
         """Sort what the tasks of a plan returned into the fields; values: by the names of `tasks`."""
         kinds: dict[str, dict[str, Any]] = {}
         for of, value in values.items():
@@ -355,7 +354,7 @@ class Runs:
         controller at its end; "push" for the headline runs.
         """
         every = {**self.run_twice, **self.claim_runs}
-        npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
+        npd, adrc = (every[f"{name} {c}"] for c in scenarios.CONTROLLERS)
         return npd, adrc
 
     def pairs(self, *words: str) -> dict[str, tuple[Outcome, Outcome]]:
@@ -376,7 +375,7 @@ class Runs:
         return {
             f"gait ({gait}), {preset}, {c}": self.runs[f"{word} {preset} {c}"]
             for preset in self.plan.presets
-            for c in CONTROLLERS
+            for c in scenarios.CONTROLLERS
         }
 
     @property

@@ -36,7 +36,6 @@ from biped_adrc.analysis.half_step import ROUND_OFF, AtTwoSteps
 from biped_adrc.core.files import packaged
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
 from biped_adrc.paper import metrics, physical_laws, values
-from biped_adrc.paper.metrics import Extremes
 from biped_adrc.paper.runs import Runs
 from biped_adrc.paper.scenarios import declared
 
@@ -197,7 +196,7 @@ def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
     word = said.get("word") or word_of_claim(of_claim)
     # a check without name and value, made for the text of its limit alone, such as "<= 0.01"
     bound = limit(said["limit"])("", CLAIM, math.nan).limit if "limit" in said else ""
-    values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
+    values = {"limit": bound, "found": metrics.Extremes.of(case.figure for case in of_claim)}
     # more numbers for the texts, by name, from the function that the table names
     values |= _function(said["values"])(r) if "values" in said else {}
     names = ("claim", "number", "reason", "finding")

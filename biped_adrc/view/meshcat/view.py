@@ -26,7 +26,6 @@ from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.biped import Biped
 from biped_adrc.view import colours, placement
-from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.pages import with_viewer
@@ -142,9 +141,9 @@ def _add_walk(
     draw.add_robot(robot, biped, opacity)
     draw.add_footprints(robot["footprints"], scene, depth, opacity)
     draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
-    draw.add_trace(robot["foot_trace"], room, SWING, opacity)
+    draw.add_trace(robot["foot_trace"], room, colours.SWING, opacity)
     for arrow in ("ground_reaction", "other_reaction"):
-        draw.add_arrow(robot[arrow], REACTION, opacity)
+        draw.add_arrow(robot[arrow], colours.REACTION, opacity)
     rings = [_add_ring(robot, biped, name, opacity) for name in biped.description.joints]
     return {
         "joints": [
@@ -158,7 +157,7 @@ def _add_walk(
             if joint.type != "fixed"
         ],
         "legs": [[part for part, link in drawn if link in leg] for leg in placement.legs(biped)],
-        "colours": [draw.colour(STANCE), draw.colour(SWING)],
+        "colours": [draw.colour(colours.STANCE), draw.colour(colours.SWING)],
         "rings": [f"{path}/{ring}/turn" for ring in rings],
         "arrows": [f"{path}/ground_reaction", f"{path}/other_reaction"],
         "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
@@ -191,7 +190,7 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
     path = f"{draw.joint_path(biped.tree, joint)}/torque"
     motors = biped.description.actuated
     origin = (0.0, 0.0, 0.0) if name in motors or inertial is None else inertial.com
-    draw.add_ring(robot[path], origin, TORQUE, opacity)
+    draw.add_ring(robot[path], origin, colours.TORQUE, opacity)
     return path
 
 
@@ -204,13 +203,13 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
     # what an arrow, and the radius of a ring, of 0.1 m mean
     newtons = 0.1 * biped.weight / colours.WEIGHT_LENGTH
     torque = 0.1 / colours.METRES_PER_NEWTON_METRE
-    walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
+    walking = [(colours.STANCE.lower(), "stance leg"), (colours.SWING.lower(), "swing leg")]
     others = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
     return [
         ("", others if ghosts else f"{solid}."),
         *([] if placement.is_wheel(biped) else walking),
-        (REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
-        (TORQUE.lower(), f"torque from outside, radius 0.1 m = {torque:.0f} N m"),
+        (colours.REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
+        (colours.TORQUE.lower(), f"torque from outside, radius 0.1 m = {torque:.0f} N m"),
     ]
 
 
