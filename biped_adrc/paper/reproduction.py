@@ -25,7 +25,6 @@ task.
 
 import itertools
 import json
-import math
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -211,7 +210,7 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     the walk ends in another way at half of the integration step ("marginal").
     """
     # COUNTED and LOST: the outcomes that count as 1 and as 0; all that are not named here as 0.5
-    ends = dict.fromkeys(COUNTED, 1.0) | dict.fromkeys(LOST, 0.0) | {"marginal": math.nan}
+    ends = dict.fromkeys(COUNTED, 1.0) | dict.fromkeys(LOST, 0.0) | {"marginal": np.nan}
     panels: dict[str, list[tuple[float, str, float]]] = {}
     for c, r in itertools.product(CONTROLLERS, rows):
         limit = "unlimited" if r["torque_limit"] is None else f"{r['torque_limit']:g} N m"
