@@ -103,8 +103,7 @@ class HeldJoint(HybridSystem):
         """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
         q, v, s = x[:1], x[1:2], x[2:, np.newaxis]
         # measured at time t of single support 1; the model is the joint itself: mass matrix J, no force Omega
-        D = np.array([[self.J]])
-        m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
+        m = Measurement(t, 1, t, q, v, reduce(np.array([[self.J]]), np.zeros(1), 1))
         u = self.controller.output(s, m)
         a = u / self.J + np.sin(self.w * t)
         return np.concatenate((v, a, self.controller.flow(s, m, u)[:, 0]))

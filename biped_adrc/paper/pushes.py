@@ -134,8 +134,7 @@ def usual_track(usual: Member, controller: str, share: float) -> Track:
     """
     # start: of the observer, "zero" (xi^ = 0) or "model"; [0]: the walk's first part is its first single
     # support
-    run = usual.run(controller, pushed=False)
-    return track(in_two(run, usual.start == "zero", share)[0])
+    return track(in_two(usual.run(controller, pushed=False), usual.start == "zero", share)[0])
 
 
 class MemberWalk(NamedTuple):

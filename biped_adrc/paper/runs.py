@@ -381,5 +381,4 @@ class Runs:
     @property
     def run_twice(self) -> dict[str, Outcome]:
         """Every walk that is checked at two integration steps, headline runs included, by name."""
-        heads = {f"push {c}": head.outcome for c, head in self.headline.items()}
-        return heads | dict(self.runs)
+        return {f"push {c}": head.outcome for c, head in self.headline.items()} | dict(self.runs)

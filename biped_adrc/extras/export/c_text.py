@@ -91,9 +91,8 @@ class Written(NamedTuple):
 
 def read_by(function: SymbolicFunction, which: int) -> set[int]:
     """Indices of the parameters K (which = 0) or of the inputs (which = 1) that a function reads."""
-    line = straight_line(function)
     # of an input: (which, index)
-    return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == which}
+    return {x.of[1] for x in straight_line(function) if x.code == ca.OP_INPUT and x.of[0] == which}
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:

@@ -178,8 +178,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         """
         if seed is not None:
             self.generators[i], _ = seeding.np_random(seed)
-        drawn = int(self.generators[i].integers(MOST_SEED)) if seed is None else seed
-        self.stage.begin(i, drawn)
+        self.stage.begin(i, int(self.generators[i].integers(MOST_SEED)) if seed is None else seed)
 
     def step(self, actions: Array) -> tuple[Array, Array, Flags, Flags, Infos]:
         """Walk one sample of each walk under actions (N, p), shares of the torque limit from -1 to 1; a walk

@@ -108,8 +108,7 @@ class RobotLog(Shown):
         Angles and rates are interpolated linearly between rows; the torque of a new row is the mean, over its
         period, of the torques that were held. A remark says so.
         """
-        begins = np.flatnonzero(np.diff(self.step)) + 1
-        supports = np.split(np.arange(len(self.t)), begins)
+        supports = np.split(np.arange(len(self.t)), np.flatnonzero(np.diff(self.step)) + 1)
         # _support: t, step, q, u, v of one single support on the new clock
         parts = zip(*(self._support(rows, period) for rows in supports), strict=True)
         t, step, q, u, v = (np.concatenate(x) for x in parts)

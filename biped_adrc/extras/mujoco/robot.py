@@ -66,9 +66,8 @@ def floating_mjcf(
     the ground itself, so that the sphere of a foot touches when its centre, the foot point, is on the ground.
     """
     d = biped.description
-    contact = {"cone": "elliptic", "impratio": text(ground.impratio)}
     # root: the element <mujoco>, world: its <worldbody>; {}: MuJoCo's usual flags
-    root, world = _world(biped, h, contact, {})
+    root, world = _world(biped, h, {"cone": "elliptic", "impratio": text(ground.impratio)}, {})
     joints = {joint.name: joint for joint in biped.tree.joints}
     # place (x, 0, z) of the planes, along the normal ground_axes(..)[1] = (x, z) of the ground, and rotation by
     # the slope about y as a quaternion (w, x, y, z)

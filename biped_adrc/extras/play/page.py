@@ -171,8 +171,7 @@ def laid_out(walk: PageWalk) -> WalkScene:
     # _AROUND: length of the ground before and behind the robot
     footholds = np.linspace(-_AROUND, _AROUND, PRINTS)
     run = Trajectory((arc,) * PRINTS, Status.COMPLETED)
-    slope = walk.walker.ground_slope
-    return WalkScene(walk.walker, run, footholds, -math.tan(slope) * footholds)
+    return WalkScene(walk.walker, run, footholds, -math.tan(walk.walker.ground_slope) * footholds)
 
 
 def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
