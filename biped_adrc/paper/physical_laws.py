@@ -175,8 +175,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 
     # (q, q') (10,) after 0.1 s with integration step h [s]; Mode(): single support 1, from t = 0 on
     def end(h: float) -> Array:
-        moved = simulate_by(COMPILED, walker, x0, Mode(), Exponential(h), t_end=0.1)
-        return moved.final_state[:10]
+        return simulate_by(COMPILED, walker, x0, Mode(), Exponential(h), t_end=0.1).final_state[:10]
 
     exact = end(3.125e-5)
     coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))

@@ -27,9 +27,8 @@ from biped_adrc.extras.export.functions import Field, Functions, functions
 
 REALS = {"float64": "double", "float32": "float"}
 """Name of a type in NumPy -> its name in C."""
-TAKEN = {
-    "main": "main.c is the example",
-    **{x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"},
+TAKEN = {x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"} | {
+    "main": "main.c is the example"
 }
 """Prefix that is refused, since it would clash with other names of C -> the reason."""
 ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}

@@ -256,8 +256,7 @@ class Replay(Shown):
         with new_figure(8.0, 7.0, self.scenario.controller.name) as figure:
             beyond, residual, torque = figure.subplots(3, 1, sharex=True)
             for k, u in enumerate(x.u.T):
-                name = "in the log" if k == 0 else "_"
-                line(torque, x, u, k, name, color=GREY, lw=0.8, ls=":")
+                line(torque, x, u, k, "_" if k else "in the log", color=GREY, lw=0.8, ls=":")
             for axes, values, symbol, unit in (
                 (beyond, x.zeta_estimate, r"\hat\zeta", "beyond the model [N m]"),
                 (residual, 1e3 * x.residual, "q", "residual [mrad]"),

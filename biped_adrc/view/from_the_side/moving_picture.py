@@ -101,10 +101,8 @@ def moving_figure(
     # a metre has the same number of pixels in width and in height
     size = width / draw.DPI, share * width * tallest / shown / draw.DPI
     figure = Figure(figsize=size, dpi=draw.DPI)
-    panels = [
-        _panel(figure.add_axes((k * share, 0.0, share, 1.0)), group, pace, around)
-        for k, group in enumerate(groups)
-    ]
+    places = (figure.add_axes((k * share, 0.0, share, 1.0)) for k in range(len(groups)))
+    panels = [_panel(x, group, pace, around) for x, group in zip(places, groups, strict=True)]
 
     def show(t: float) -> None:
         for panel in panels:
@@ -145,8 +143,7 @@ def _panel(
         ends = {name: ending(run) for name, run in runs.items() if t >= run.t_end}
         over = [f"{name} {end}" for name, end in ends.items() if end]
         clock = ", ".join(filter(None, (f"t = {t:.2f} s, step {last.step(t)}", pace)))
-        words = "\n".join((caption, clock, *over))
-        text.set_text(draw.wrapped(words, 0.96 * axes.bbox.width))
+        text.set_text(draw.wrapped("\n".join((caption, clock, *over)), 0.96 * axes.bbox.width))
 
     return show
 

@@ -282,8 +282,7 @@ def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | Non
     below FLOOR are drawn there, as a logarithmic scale has no 0. Returns the axes.
     """
     for i, (name, s) in enumerate(walks.items()):
-        largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
-        line(axes, s, largest, i, name, lw=1.0)
+        line(axes, s, np.maximum(np.max(np.abs(s.error), axis=1), FLOOR), i, name, lw=1.0)
     axes.set_yscale("log")
     return finished(axes, "largest tracking error [rad]", push)
 
