@@ -160,8 +160,9 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
             kinds.append(_degree(code, sides))
             if code == ca.OP_SUB and LINEAR in sides and UNKNOWN not in sides:
                 differences.add(i)
-    known = ca.OP_INPUT, ca.OP_CONST
-    return {i for i in ancestors(line, differences) if line[i].code not in known}
+    return {
+        i for i in ancestors(line, differences) if line[i].code not in (ca.OP_INPUT, ca.OP_CONST)
+    }
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)

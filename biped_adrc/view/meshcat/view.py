@@ -13,12 +13,10 @@ of a stance foot. An arc is the motion of one single support; its state x begins
 their n rates.
 """
 
-from __future__ import annotations
-
 import base64
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -41,6 +39,49 @@ TALL = 1.6
 """Height [m] of the highest robot that the cameras show from where they are for RABBIT."""
 Marks = Sequence[tuple[float, float, str]]
 """(start, stop, text) of what is shown beside the clock, times in [s]."""
+EPSILON = 1e-6
+"""Half the interval [s] of the central difference by which the rates of the joints, the base among them, are
+computed."""
+
+
+class Pose(NamedTuple):
+    """Everything that is drawn of a walk at one time."""
+
+    joints: Array
+    """(J,) values of the moving joints, in the order of the URDF [rad], [m]."""
+    rates: Array
+    """(J,) rates of these joints [rad/s], [m/s]."""
+    loads: Array
+    """(2 + n,): force of the ground on the stance foot along x and z [N], and the external torque on the drawn
+    joints of q1..qn [N m]."""
+    points: Array
+    """(4,): x and z of the hip and of the swing foot in the world [m]."""
+    contact: Array
+    """(5,): x, z of the stance foot [m], force on the other foot along x, z [N], and 1 where a foot slips."""
+
+
+class Frames(NamedTuple):
+    """A walk in K samples, one in each row; at an impact there are two, before and after it."""
+
+    t: Array
+    """Times (K,) [s]."""
+    arc: Array
+    """(K,) index of the single support, from 0."""
+    poses: Pose
+    """The poses at these times, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
+
+    @classmethod
+    def of(cls, scene: WalkScene, fps: float) -> Self:
+        """Sample a walk `fps` [1/s] times per second, and at the other times that the head of this module
+        names. Raises InputError for too many frames.
+        """
+        placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
+        # _nodes: the times [s] at which one single support is sampled
+        of_arcs = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
+        at = [(i, t) for i, times in enumerate(of_arcs) for t in times]
+        arcs, times = map(np.array, zip(*at, strict=True))
+        poses = zip(*(pose(scene, i, t) for i, t in at), strict=True)
+        return cls(times, arcs, Pose(*map(np.array, poses)))
 
 
 def animation_html(
@@ -211,51 +252,6 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
         (colours.REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
         (colours.TORQUE.lower(), f"torque from outside, radius 0.1 m = {torque:.0f} N m"),
     ]
-
-
-EPSILON = 1e-6
-"""Half the interval [s] of the central difference by which the rates of the joints, the base among them, are
-computed."""
-
-
-class Pose(NamedTuple):
-    """Everything that is drawn of a walk at one time."""
-
-    joints: Array
-    """(J,) values of the moving joints, in the order of the URDF [rad], [m]."""
-    rates: Array
-    """(J,) rates of these joints [rad/s], [m/s]."""
-    loads: Array
-    """(2 + n,): force of the ground on the stance foot along x and z [N], and the external torque on the drawn
-    joints of q1..qn [N m]."""
-    points: Array
-    """(4,): x and z of the hip and of the swing foot in the world [m]."""
-    contact: Array
-    """(5,): x, z of the stance foot [m], force on the other foot along x, z [N], and 1 where a foot slips."""
-
-
-class Frames(NamedTuple):
-    """A walk in K samples, one in each row; at an impact there are two, before and after it."""
-
-    t: Array
-    """Times (K,) [s]."""
-    arc: Array
-    """(K,) index of the single support, from 0."""
-    poses: Pose
-    """The poses at these times, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
-
-    @classmethod
-    def of(cls, scene: WalkScene, fps: float) -> Frames:
-        """Sample a walk `fps` [1/s] times per second, and at the other times that the head of this module
-        names. Raises InputError for too many frames.
-        """
-        placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
-        # _nodes: the times [s] at which one single support is sampled
-        of_arcs = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
-        at = [(i, t) for i, times in enumerate(of_arcs) for t in times]
-        arcs, times = map(np.array, zip(*at, strict=True))
-        poses = zip(*(pose(scene, i, t) for i, t in at), strict=True)
-        return cls(times, arcs, Pose(*map(np.array, poses)))
 
 
 def pose(scene: WalkScene, i: int, t: float) -> Pose:

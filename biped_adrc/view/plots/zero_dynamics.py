@@ -82,8 +82,7 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     low, high = _shown(report)  # range of zeta that is drawn
     orbit, fastest = _sigma(o, theta, report.zeta_star), _sigma(o, theta, max(low, high))
     if not report.domain.empty:
-        slowest = _sigma(o, theta, low)
-        axes.fill_between(theta, slowest, fastest, color=DOMAIN, lw=0, label="domain")
+        axes.fill_between(theta, _sigma(o, theta, low), fastest, color=DOMAIN, lw=0, label="domain")
     axes.plot(theta, orbit, color=PALETTE[1], lw=2.0, label="orbit")
     ends = [theta[-1], theta[0]], [orbit[-1], orbit[0]]
     axes.plot(*ends, color=PALETTE[1], ls=":", label="impact")
