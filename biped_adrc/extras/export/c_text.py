@@ -160,9 +160,8 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
             kinds.append(_degree(code, sides))
             if code == ca.OP_SUB and LINEAR in sides and UNKNOWN not in sides:
                 differences.add(i)
-    return {
-        i for i in ancestors(line, differences) if line[i].code not in (ca.OP_INPUT, ca.OP_CONST)
-    }
+    known = ca.OP_INPUT, ca.OP_CONST
+    return {i for i in ancestors(line, differences) if line[i].code not in known}
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)

@@ -102,9 +102,9 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as its ends
     do not belong to it, and run towards zeta* where the gait is stable. Returns the axes.
     """
-    o = report.orbits
+    o, zeta_star = report.orbits, report.zeta_star
     low, high = _shown(report)  # range of zeta that is drawn
-    right = 1.05 * max(high, report.zeta_star)
+    right = 1.05 * max(high, zeta_star)
     zeta = np.array([o.lowest, right])
     if not report.domain.empty:
         axes.axvspan(low, high, color=DOMAIN, lw=0, zorder=0, label="domain")
@@ -115,8 +115,7 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
         inside = end + 1e-6 * (high - low) * (1.0 if k == 0 else -1.0)
         name = "step by step" if k == 0 else "_"  # "_" leaves it out of the legend
         stairs(axes, o.iterate(inside, STAIRS), name)
-    name = r"$\zeta^*$"
-    axes.plot(report.zeta_star, report.zeta_star, "s", color="black", mfc="none", label=name)
+    axes.plot(zeta_star, zeta_star, "s", color="black", mfc="none", label=r"$\zeta^*$")
     unit = "[kg$^2$m$^4$/s$^2$]"
     label(axes, rf"$\zeta_k$ {unit}", rf"$\zeta_{{k+1}}$ {unit}", "return map")
     axes.set_xlim(0.0, right)
