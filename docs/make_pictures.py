@@ -27,8 +27,7 @@ from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.study import read_study
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.placement import Clip
-from biped_adrc.view.plots.rough_ground import rough_ground_figure
-from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
+from biped_adrc.view.plots.zero_dynamics import rough_ground_figure, zero_dynamics_figure
 from biped_adrc.view.style import render
 from validation.findings import comparison, searches
 

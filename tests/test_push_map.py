@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from biped_adrc.gait.constraint import continued
-from biped_adrc.paper.figures import push_map_figure
 from biped_adrc.paper.pushes import push_map, word_of
-from biped_adrc.paper.reproduction import _map
+from biped_adrc.paper.reproduction import _map, push_map_figure
 from biped_adrc.paper.scenarios import MapPush
 from biped_adrc.scenario.walk import walk_scenario
 

@@ -157,7 +157,7 @@ def test_one_broken_claim_reaches_summary_and_exit_code(stubbed, tmp_path, ratio
     (only,) = found.pushed_recipe["identified"]
     npd = only.walked["NPD"]
     scaled = npd._replace(deviation=AtTwoSteps(*(ratio * x for x in npd.deviation)))
-    odd = replace(only, walked={"NPD": npd, "ADRC": scaled})
+    odd = only._replace(walked={"NPD": npd, "ADRC": scaled})
     stubbed(replace(found, pushed_recipe={"identified": [odd]}))
     done = CliRunner().invoke(app, ["reproduce", "--quick", "--out", str(tmp_path)])
     assert done.exit_code == (0 if holds else ExitCode.CHECK_FAILED), done.output

@@ -25,7 +25,6 @@ limit would then count as kept by a number that does not exist.
 import itertools
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -182,7 +181,7 @@ def last_at_two(name: str, o: Outcome) -> AtTwoSteps:
     """The field `name` of the `Certificate` of the last finished walking step, at the integration step used and
     at half of it.
     """
-    return at_two(partial(last, name), o)
+    return at_two(lambda x: last(name, x), o)
 
 
 def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) -> AtTwoSteps:

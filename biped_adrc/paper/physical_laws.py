@@ -103,8 +103,7 @@ class HeldJoint(HybridSystem):
         """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
         q, v, s = x[:1], x[1:2], x[2:, np.newaxis]
         # measured at time t of single support 1; the model is the joint itself: mass matrix J, no force Omega
-        D = np.array([[self.J]])
-        m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
+        m = Measurement(t, 1, t, q, v, reduce(np.array([[self.J]]), np.zeros(1), 1))
         u = self.controller.output(s, m)
         a = u / self.J + np.sin(self.w * t)
         return np.concatenate((v, a, self.controller.flow(s, m, u)[:, 0]))
@@ -176,8 +175,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 
     # (q, q') (10,) after 0.1 s with integration step h [s]; Mode(): single support 1, from t = 0 on
     def end(h: float) -> Array:
-        moved = simulate_by(COMPILED, walker, x0, Mode(), Exponential(h), t_end=0.1)
-        return moved.final_state[:10]
+        return simulate_by(COMPILED, walker, x0, Mode(), Exponential(h), t_end=0.1).final_state[:10]
 
     exact = end(3.125e-5)
     coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))

@@ -113,5 +113,4 @@ def regression_of(outcome: Outcome) -> Regression:
     """
     gait = RobotAndGait.of(outcome.run).walked
     x_star = np.concatenate((gait.q_minus, gait.v_minus))
-    x_minus = outcome.x_minus[:, : len(x_star)]
-    return regress_multipliers(x_minus, x_star)
+    return regress_multipliers(outcome.x_minus[:, : len(x_star)], x_star)

@@ -26,7 +26,6 @@ marginal, and no verdict on the paper rests on it. The outcomes of a walk:
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple, Self
 
@@ -41,8 +40,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.paper import scenarios
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, MapPush, Member
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, MapPush, Member, by_rk4
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.integration import WalkPart, methods_of, runs_in_parts
 from biped_adrc.scenario.recording import Outcome, Walk
@@ -101,7 +99,7 @@ def scene_in(preset: str | None, gait: str) -> RobotAndGait:
     """The robot RABBIT in a preset (a set of masses; a scenario of the reproduction always names one) and one
     of its gaits, read once for many walks."""
     # a scenario needs a controller; which one has no effect on robot and gait
-    return RobotAndGait.of(scenarios.by_rk4("NPD", str(preset), gait=gait))
+    return RobotAndGait.of(by_rk4("NPD", str(preset), gait=gait))
 
 
 def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:
@@ -136,8 +134,7 @@ def usual_track(usual: Member, controller: str, share: float) -> Track:
     """
     # start: of the observer, "zero" (xi^ = 0) or "model"; [0]: the walk's first part is its first single
     # support
-    run = usual.run(controller, pushed=False)
-    return track(in_two(run, usual.start == "zero", share)[0])
+    return track(in_two(usual.run(controller, pushed=False), usual.start == "zero", share)[0])
 
 
 class MemberWalk(NamedTuple):
@@ -159,8 +156,7 @@ class MemberWalk(NamedTuple):
     step used."""
 
 
-@dataclass(frozen=True)
-class MemberOutcome:
+class MemberOutcome(NamedTuple):
     """The walks of a member under both controllers."""
 
     member: Member
@@ -192,7 +188,7 @@ def _at(
     """
     run = member.run(controller, **values)
     # without the push its values have no effect: equal ones let `usual_track` compute each such step once
-    usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
+    usual = member._replace(amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
     # "zero": the observer starts with xi^ = 0
     walks = in_two(run, member.start == "zero", share)
     one, other = track(walks[0]), usual_track(usual, controller, share)
@@ -265,7 +261,7 @@ class PushCell(NamedTuple):
         The fields of the push, and onset_ms; npd and adrc: outcome, status, reasons and `FORCES` of each walk
         at the integration step used, None for a force that is not finite; npd_word, adrc_word: `word_of`.
         """
-        result = asdict(self.push) | {"onset_ms": 1e3 * self.push.onset}
+        result = self.push._asdict() | {"onset_ms": 1e3 * self.push.onset}
         for name, o in (("npd", self.npd), ("adrc", self.adrc)):
             f = o.feasibility
             numbers = {x: getattr(f, x) for x in FORCES}

@@ -40,7 +40,6 @@ from biped_adrc.paper import scenarios
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare
 from biped_adrc.paper.pushes import MemberOutcome, PushCell, member_outcomes, member_walk, push_map
-from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
@@ -49,7 +48,7 @@ from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.HEAVIER), "torso")
 """Names of the walks in which NPD and ADRC are compared: pushed, sampled, with a plant heavier than the
 model."""
-PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
+PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.reproduction", "biped_adrc.engine.batch")
 """Modules that the processes of a reproduction share."""
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; without pushes no signal is faster."""
@@ -107,8 +106,7 @@ def _headline(run: Scenario) -> Headline:
     # with half the integration step nodes are kept at half the distance, so that the outcomes differ as those
     # of all nodes would; walk_laws: violated laws of physics
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
-    outcome = replace(walk.outcome, half=at_half)
-    return Headline(outcome, walk.trajectory, walk_laws(walk))
+    return Headline(replace(walk.outcome, half=at_half), walk.trajectory, walk_laws(walk))
 
 
 def engines(one: Scenario, other: Scenario) -> float:
@@ -154,7 +152,7 @@ def starts(preset: str) -> list[Start]:
     """
     least, result = least_speed(preset), []
     for k in scenarios.declared()["basin"]["factors"]:
-        runs = {c: scenarios.starting(c, preset, k * least) for c in CONTROLLERS}
+        runs = {c: scenarios.starting(c, preset, k * least) for c in scenarios.CONTROLLERS}
         result.append(Start(least, k, {c: execute_twice(run) for c, run in runs.items()}))
     return result
 
@@ -252,7 +250,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
     loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)  # all are real
     # `on_the_recipe` is a member with this push on gait (b)
-    member = replace(scenarios.on_the_recipe(preset), gait="published")
+    member = scenarios.on_the_recipe(preset)._replace(gait="published")
     return Order(
         float(np.max(np.abs(observer.gains))),
         float(np.max(np.abs(loop.noise(w)))),
@@ -264,7 +262,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
 
 
 # -- tasks -----------------------------------------------------------------------------------------
-def tasks(plan: Plan) -> dict[str, Task[object]]:
+def tasks(plan: scenarios.Plan) -> dict[str, Task[object]]:
     """Everything to compute, by "kind/name", about the longest first so that no core waits at the end."""
     result: dict[str, Task[object]] = {}
 
@@ -273,7 +271,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 
     for preset in plan.presets:
         add("members", preset, member_outcomes, scenarios.members(preset))
-    for c in reversed(CONTROLLERS):  # ADRC takes longer, so it is first
+    for c in reversed(scenarios.CONTROLLERS):  # ADRC takes longer, so it is first
         add("headline", c, _headline, scenarios.pushed_run(plan, c))
         add("engines", c, engines, *scenarios.engine_runs(plan, c))
     add("numerics", plan.preset, numerics_laws, plan.preset)
@@ -300,7 +298,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 class Runs:
     """The results of a reproduction: for each kind of task a dictionary by name."""
 
-    plan: Plan
+    plan: scenarios.Plan
     """The plan that was carried out."""
     headline: Mapping[str, Headline] = field(default_factory=dict)
     """The pushed walks, by controller."""
@@ -332,7 +330,7 @@ class Runs:
     """Figures of the numerical methods, one entry."""
 
     @classmethod
-    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Self:
+    def of(cls, plan: scenarios.Plan, values: Mapping[str, Any]) -> Self:
         """Sort what the tasks of a plan returned into the fields; values: by the names of `tasks`."""
         kinds: dict[str, dict[str, Any]] = {}
         for of, value in values.items():
@@ -356,7 +354,7 @@ class Runs:
         controller at its end; "push" for the headline runs.
         """
         every = {**self.run_twice, **self.claim_runs}
-        npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
+        npd, adrc = (every[f"{name} {c}"] for c in scenarios.CONTROLLERS)
         return npd, adrc
 
     def pairs(self, *words: str) -> dict[str, tuple[Outcome, Outcome]]:
@@ -377,11 +375,10 @@ class Runs:
         return {
             f"gait ({gait}), {preset}, {c}": self.runs[f"{word} {preset} {c}"]
             for preset in self.plan.presets
-            for c in CONTROLLERS
+            for c in scenarios.CONTROLLERS
         }
 
     @property
     def run_twice(self) -> dict[str, Outcome]:
         """Every walk that is checked at two integration steps, headline runs included, by name."""
-        heads = {f"push {c}": head.outcome for c, head in self.headline.items()}
-        return heads | dict(self.runs)
+        return {f"push {c}": head.outcome for c, head in self.headline.items()} | dict(self.runs)

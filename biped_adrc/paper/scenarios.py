@@ -23,7 +23,7 @@ Integration steps are such that halving them changes no figure of merit by more 
 import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
@@ -242,8 +242,7 @@ def starting(controller: str, preset: str, speed: float) -> Scenario:
     return loose(controller, preset, COARSE, start={"speed": speed - 1.0}, run={"impacts": 3})
 
 
-@dataclass(frozen=True)
-class Member:
+class Member(NamedTuple):
     """One combination of the choices that the paper leaves open."""
 
     preset: str
@@ -322,8 +321,7 @@ def on_the_recipe(preset: str) -> Member:
     return Member(preset, 30.0, 0.12, MOTORS, 0.0, "model", "solved", "recipe")
 
 
-@dataclass(frozen=True)
-class MapPush:
+class MapPush(NamedTuple):
     """One push of the map."""
 
     preset: str
@@ -361,8 +359,7 @@ def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
     limits = (None, 150.0) if plan.full else (150.0,)
     k, patterns = declared()["map"], [*declared()["map"]["patterns"]]
     onsets, amplitudes = (k["onsets"], k["amplitudes"]) if plan.full else ((0.3,), (150.0,))
-    for preset, limit in itertools.product(plan.presets, limits):
-        parts = [[of] for of in patterns] if plan.full else [patterns]
-        for part in parts:
-            every = itertools.product(part, amplitudes, onsets)
-            yield [MapPush(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]
+    parts = [[of] for of in patterns] if plan.full else [patterns]
+    for preset, limit, part in itertools.product(plan.presets, limits, parts):
+        every = itertools.product(part, amplitudes, onsets)
+        yield [MapPush(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]

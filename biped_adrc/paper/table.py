@@ -36,7 +36,6 @@ from biped_adrc.analysis.half_step import ROUND_OFF, AtTwoSteps
 from biped_adrc.core.files import packaged
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
 from biped_adrc.paper import metrics, physical_laws, values
-from biped_adrc.paper.metrics import Extremes
 from biped_adrc.paper.runs import Runs
 from biped_adrc.paper.scenarios import declared
 
@@ -197,23 +196,19 @@ def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
     word = said.get("word") or word_of_claim(of_claim)
     # a check without name and value, made for the text of its limit alone, such as "<= 0.01"
     bound = limit(said["limit"])("", CLAIM, math.nan).limit if "limit" in said else ""
-    values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
+    values = {"limit": bound, "found": metrics.Extremes.of(case.figure for case in of_claim)}
     # more numbers for the texts, by name, from the function that the table names
     values |= _function(said["values"])(r) if "values" in said else {}
-    number, reason, finding = (
-        str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")
-    )
+    names = ("claim", "number", "reason", "finding")
+    share = sum(c.kept for c in of_claim) / max(len(of_claim), 1)
     return Claim(
-        said["claim"].format(**values),
-        said["where"],
-        word,
-        number,
-        f"{said['metric']} {bound}" if bound else "",
-        share_text(of_claim, word == "depends"),
-        reason,
-        finding,
-        sum(c.kept for c in of_claim) / max(len(of_claim), 1) if said.get("asserted") else None,
-        sum(c.marginal for c in of_claim),
+        where=said["where"],
+        word=word,
+        limit=f"{said['metric']} {bound}" if bound else "",
+        share=share_text(of_claim, word == "depends"),
+        asserted=share if said.get("asserted") else None,
+        marginal=sum(c.marginal for c in of_claim),
+        **{name: str(said.get(name, "")).format(**values) for name in names},
     )
 
 

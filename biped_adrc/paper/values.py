@@ -40,8 +40,8 @@ from biped_adrc.paper.scenarios import CONTROLLERS, declared
 def of_headline(r: Runs) -> dict[str, object]:
     """How both controllers walk under the push of the headline runs.
 
-    npd, adrc: their outcomes. slow: that of ADRC when the push rises and falls in 10 ms. asked: impacts asked
-    for. pushes: the pushes in words. words: how feasible the walks are. errors: text of the peak errors.
+    npd, adrc: their outcomes. slow: that of ADRC when the push rises and falls in 10 ms. pushes: the pushes in
+    words. words: how feasible the walks are. errors: text of the peak errors.
     """
     npd, adrc = r.pair("push")
     slow = r.pair("rising push")
@@ -50,7 +50,6 @@ def of_headline(r: Runs) -> dict[str, object]:
         "npd": npd,
         "adrc": adrc,
         "slow": slow[1],
-        "asked": npd.run.run.impacts,
         "pushes": "; ".join(push.in_words() for push in r.plan.pushes),
         "words": ", ".join(f"{c} {x}" for c, x in word.items()),
         "errors": f"{1e3 * npd.peak_error:.3g} mrad under NPD, {1e3 * adrc.peak_error:.2g} mrad under ADRC",
@@ -137,9 +136,8 @@ def of_heavier(r: Runs) -> dict[str, object]:
 
 def of_orders(r: Runs) -> dict[str, object]:
     """Values that compare the observer of Table I (m = 7) with two of m = 1, of equal bandwidth and of equal
-    delay margin: gains, delay margins [us] of Table I and [ms] at equal bandwidth, the bandwidth [rad/s] at
-    equal delay margin, peak errors [rad] under a push, and errors per disturbance at 5 Hz [s^2] of Table I
-    (slow) and at equal delay margin (other).
+    delay margin: gains, delay margins [us] of Table I and [ms] at equal bandwidth, peak errors [rad] under a
+    push, and the numbers (`Order`) of Table I and of equal delay margin.
     """
     orders = next(iter(r.orders.values()))  # computed for one preset
     # of Table I; m = 1 of the same bandwidth; m = 1 of the same delay margin
@@ -149,10 +147,9 @@ def of_orders(r: Runs) -> dict[str, object]:
         "gains": "; ".join(shown),
         "margin": 1e6 * table.delay_margin,
         "bandwidth_margin": 1e3 * band.delay_margin,
-        "bandwidth": delay.bandwidth,
         "errors": ", ".join(f"{name} {o.pushed.at_half:.1e}" for name, o in orders.items()),
-        "slow": table.slow,
-        "other": delay.slow,
+        "table": table,
+        "delay": delay,
     }
 
 
@@ -216,8 +213,7 @@ def noise_spectrum() -> Array:
     random = np.random.default_rng(k["seed"])
     # the seed and the numbers of draws and impacts are declared in admissible.toml; the fixed point is 0 here
     draws = (random.normal(size=(k["impacts"], n)) for _ in range(k["draws"]))
-    result = [regress_multipliers(x, np.zeros(n)).magnitudes for x in draws]
-    return np.median(result, axis=0)
+    return np.median([regress_multipliers(x, np.zeros(n)).magnitudes for x in draws], axis=0)
 
 
 def of_printed(r: Runs) -> dict[str, object]:

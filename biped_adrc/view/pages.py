@@ -34,12 +34,6 @@ POLICY = (
 """Content security policy of a page: the browser itself refuses every load from a network."""
 CLAIM_COLUMNS = ("claim", "where", "word", "number", "limit", "share", "reason")
 """Columns of the table of claims in the report, by their key in the summary."""
-_KINDS = {
-    "reproduced": "what the paper claims and what could have failed",
-    "law": "physics and numerics that hold whatever the paper says",
-    "consistency": "what was built in and has to come out again",
-}
-"""Kind of a check -> what the report says about it."""
 HEIGHT = 480
 """[px] of the animation in a notebook."""
 
@@ -113,14 +107,8 @@ def report_html(
     SVG or PNG; the name selects the caption. animation: text of the page of
     `meshcat.view.animation_html`, shown in a frame; no frame if None.
     """
-    return rendered(
-        "report",
-        s=summary,
-        figures=[_figure(name, picture) for name, picture in figures.items()],
-        animation=animation,
-        columns=CLAIM_COLUMNS,
-        kinds=_KINDS,
-    )
+    drawn = [_figure(name, picture) for name, picture in figures.items()]
+    return rendered("report", s=summary, figures=drawn, animation=animation, columns=CLAIM_COLUMNS)
 
 
 def _figure(name: str, picture: bytes) -> tuple[str, str, str]:

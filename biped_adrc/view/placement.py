@@ -44,12 +44,13 @@ MOST_FRAMES = 200_000
 """Largest number of frames of a page or a moving picture: an hour at 50 in a second."""
 TILE = 0.5
 """Length [m], along x, of the light and dark tiles of the ground."""
+GHOST = 0.35
+"""Opacity of a ghost, a walk that another one is laid over (1 is solid)."""
 VIEWS = ("side", "perspective")
 """Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
 
 
-@dataclass(frozen=True)
-class Surface:
+class Surface(NamedTuple):
     """The ground of a walk: a slope with steps down and up.
 
     slope [rad]: positive downhill. edges (E,) [m]: x of the steps of the ground, in increasing order. drops
@@ -381,9 +382,7 @@ def ending(trajectory: Trajectory) -> str:
     if status.ok:
         return ""
     event = trajectory.arcs[-1].event
-    reason = status.value.split(";")[0]  # without the advice behind the semicolon
+    reason = trajectory.detail or status.value.split(";")[0]  # without the advice behind it
     if event is not None and event.x_plus is None:  # no state follows: a terminal event
         reason = event.guard.replace("_", " ")
-    elif trajectory.detail:
-        reason = trajectory.detail
     return f"{status.name.lower().replace('_', ' ')} at {trajectory.t_end:.2f} s: {reason}"

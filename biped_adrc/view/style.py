@@ -15,7 +15,6 @@ from contextlib import AbstractContextManager, contextmanager
 from importlib.resources import files
 from pathlib import Path
 
-import matplotlib as mpl
 import matplotlib.style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -45,7 +44,7 @@ def style() -> AbstractContextManager[None]:
 
     They start from matplotlib's defaults, so a user's matplotlibrc has no effect on the figures.
     """
-    return mpl.style.context(SETTINGS, after_reset=True)
+    return matplotlib.style.context(SETTINGS, after_reset=True)
 
 
 @contextmanager

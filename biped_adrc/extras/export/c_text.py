@@ -20,7 +20,7 @@ that are read, as constants in double.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import casadi as ca
 
@@ -59,8 +59,7 @@ _PATTERNS: Patterns = {
 """Expression in C of each operation; {a}, {b}, {c} are its operands, and {F} is empty in double."""
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(NamedTuple):
     """A number in a C function: its name or constant in C, and whether it is a double even if `real` is not."""
 
     name: str
@@ -72,8 +71,7 @@ class Entry:
         return f"(real){self.name}" if self.double else self.name
 
 
-@dataclass(frozen=True)
-class CFunction:
+class CFunction(NamedTuple):
     """A function to write in C: its expression, and the names in C of its inputs and outputs."""
 
     function: SymbolicFunction
@@ -81,8 +79,7 @@ class CFunction:
     outputs: Sequence[str]
 
 
-@dataclass(frozen=True)
-class Written:
+class Written(NamedTuple):
     """The lines of C in the body of a function, and how many operations they have."""
 
     lines: tuple[str, ...]
@@ -94,9 +91,8 @@ class Written:
 
 def read_by(function: SymbolicFunction, which: int) -> set[int]:
     """Indices of the parameters K (which = 0) or of the inputs (which = 1) that a function reads."""
-    line = straight_line(function)
     # of an input: (which, index)
-    return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == which}
+    return {x.of[1] for x in straight_line(function) if x.code == ca.OP_INPUT and x.of[0] == which}
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
@@ -190,6 +186,5 @@ def decimal(x: float) -> str:
     """Text in C of a double: the shortest decimals that are read back as the same bits, a negative one in
     parentheses; HUGE_VAL for infinity.
     """
-    if math.isinf(x):
-        return "HUGE_VAL" if x > 0.0 else "(-HUGE_VAL)"
-    return repr(float(x)) if math.copysign(1.0, x) > 0.0 else f"({float(x)!r})"
+    text = "HUGE_VAL" if math.isinf(x) else repr(abs(float(x)))
+    return text if math.copysign(1.0, x) > 0.0 else f"(-{text})"

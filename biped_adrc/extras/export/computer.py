@@ -55,11 +55,13 @@ class Computer:
         return robot_of(self.walker.nominal)
 
     @cached_property
-    def differences(self) -> Sensors | None:
+    def sensors(self) -> Sensor | None:
         """The part of the walker's sensors that runs on the computer: differences of angles and their filter,
-        as `Sensors` without noise and counts; None if rates are measured.
+        as `Sensors` without noise and counts; wrapped in `Noticed` where touchdowns are detected; None if rates
+        are measured.
 
-        Raises InputError for a sensor that has another part on the computer.
+        At a touchdown `Noticed` takes differences with the old names of the legs, then relabels them: q+ = R q-
+        + offset. Raises InputError for a sensor that has another part on the computer.
         """
         # None: there is no sensor before this one, on whose part on the computer it could build
         sensor = self.walker.sensors
@@ -67,18 +69,9 @@ class Computer:
         if result is not None and not isinstance(result, Sensors):
             name = type(result).__name__
             raise InputError(f"on the computer the sensors are {name}, expected Sensors or None")
-        return result
-
-    @cached_property
-    def sensors(self) -> Sensor | None:
-        """`differences`, wrapped in `Noticed` where touchdowns are detected; None if rates are measured.
-
-        At a touchdown `Noticed` takes differences with the old names of the legs, then relabels them: q+ = R q-
-        + offset.
-        """
-        if self.differences is None or self.walker.touchdown is None:
-            return self.differences
-        return Noticed(self.differences, self.robot.R, self.robot.offset)
+        if result is None or self.walker.touchdown is None:
+            return result
+        return Noticed(result, self.robot.R, self.robot.offset)
 
     @cached_property
     def alone(self) -> Walker:

@@ -22,8 +22,8 @@ import platform
 import uuid
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part
@@ -41,30 +41,18 @@ AS_READ = {True: "read at every step", False: "read at the first step only"}
 """Text in the FMU's description about a rate, by whether `step`, the C at a sample instant, reads it."""
 
 
-@dataclass(frozen=True)
-class Port:
+class Port(NamedTuple):
     """An input or output of an FMU; its index in the list of `ports` is its value reference."""
 
     name: str
     """Name as in the header of the C."""
-    causality: str
-    """ "input" or "output"."""
     kind: str
-    """The XML element of FMI with type, unit and start value."""
+    """What it is; the template ports.j2 has, by kind, what FMI says of it."""
     words: str
     """Description of the port."""
 
-    @property
-    def variability(self) -> str:
-        """FMI's attribute: "continuous" for an angle or rate, else "discrete": outputs, and the touchdown,
-        change at sample instants alone.
-        """
-        sampled = self.causality == "output" or not self.kind.startswith("<Real")
-        return "discrete" if sampled else "continuous"
 
-
-@dataclass(frozen=True)
-class Fmu:
+class Fmu(NamedTuple):
     """The files of an FMU, by their path inside."""
 
     name: str
@@ -109,26 +97,18 @@ def ports(source: Source) -> list[Port]:
     torques u of the p motors, touchdown, flag.
     """
     # read: indices of the rates that the C reads at each sample instant; AS_READ has the text about that
-    joints, read = source.words["joint_names"], source.words["rates_read"]
-    numbered = list(enumerate(joints))
-    angle, rate = '<Real unit="rad" start="0"/>', '<Real unit="rad/s" start="0"/>'
-    torque, flags = '<Real unit="N.m"/>', '<Integer min="0" max="4"/>'
+    read, p = source.words["rates_read"], source.p
+    numbered = list(enumerate(source.words["joints"]))  # index and name of each joint
     landed = "becomes true at the first sample after a touchdown, from which on q, v and u have the new labels"
     flag = (
         "0, or why the step has no result: 1 not measured, 2 no number; u is held, and zero later"
     )
     return [
-        *(Port(f"q[{i}]", "input", angle, f"angle of {joint}") for i, joint in numbered),
-        *(
-            Port(f"v[{i}]", "input", rate, f"rate of {joint}, {AS_READ[i in read]}")
-            for i, joint in numbered
-        ),
-        *(
-            Port(f"u[{i}]", "output", torque, f"torque of the motor of {joint}")
-            for i, joint in numbered[: source.p]
-        ),
-        Port("touchdown", "input", '<Boolean start="false"/>', landed),
-        Port("flag", "output", flags, flag),
+        *(Port(f"q[{i}]", "angle", f"angle of {x}") for i, x in numbered),
+        *(Port(f"v[{i}]", "rate", f"rate of {x}, {AS_READ[i in read]}") for i, x in numbered),
+        *(Port(f"u[{i}]", "torque", f"torque of the motor of {x}") for i, x in numbered[:p]),
+        Port("touchdown", "touchdown", landed),
+        Port("flag", "flag", flag),
     ]
 
 

@@ -5,7 +5,7 @@ The same scenario gives the same bytes: the text contains no date, machine or pa
 """
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -27,9 +27,8 @@ from biped_adrc.extras.export.functions import Field, Functions, functions
 
 REALS = {"float64": "double", "float32": "float"}
 """Name of a type in NumPy -> its name in C."""
-TAKEN = {
-    "main": "main.c is the example",
-    **{x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"},
+TAKEN = {x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"} | {
+    "main": "main.c is the example"
 }
 """Prefix that is refused, since it would clash with other names of C -> the reason."""
 ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}
@@ -97,19 +96,20 @@ def source_of(
     # ARGUMENTS: function -> its arguments in C besides x, m and next
     traced = zip(ARGUMENTS, functions_.all, strict=True)
     written = {name: c_text(f, used) for name, f in traced}
+    # calls of sin and cos: those with F are of the type `real`, others in double even where that is float
+    calls = [line for f in written.values() for line in f.lines if "(sine)" in line]
     words = {
         **_of_robot(computer, functions_),
         "prefix": prefix,
         "P": prefix.upper(),
         "real": REALS[real],
         "sine": vars(sine),
-        "sine_wide": _sine_in_double(written.values()),
+        "sine_wide": any("F(sine)" not in line for line in calls) if calls else None,
         # the computer's plant is the model that the controller knows
         "numbers": [(names[i].replace("plant", "model", 1), decimal(values[i])) for i in used],
         "laws": [(name, ARGUMENTS[name], written[name].lines) for name in written],
         "scenario": scenario,
-        "operations": {name: f.operations for name, f in written.items()},
-        "doubles": {name: f.doubles for name, f in written.items()},
+        "step": written["step"],
     }
     texts = {"header.h": f"{prefix}.h", "source.c": f"{prefix}.c"}
     texts |= {name: name for name in ("main.c", "Makefile", "README.md", "LICENSE")}
@@ -119,37 +119,20 @@ def source_of(
 
 def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
     """Values for the templates, by name: robot, controller, clock, and fields of the state's struct."""
-    walker, k = computer.walker, computer.robot
-    joints = walker.plant.description.joints
-    units = ["with a motor"] * k.p + ["without a motor"] * (k.n - k.p)
-    numbered = enumerate(zip(joints, units, strict=True))
-    limits = []
-    if walker.torque_limit is not None:
-        limits.append(f"at most {walker.torque_limit:g} N m")
-    # change: the limit of the torque's rate, times the period
-    if (change := computer.held.motors.change) is not None:
-        limits.append(f"changes of at most {change:g} N m in a period")
-    read = [f"m->v[{i}]" for i in functions_.rates]
+    walker, k, robot = computer.walker, computer.robot, computer.walker.plant.description
     return {
-        "title": f"Controller of the robot {walker.plant.description.name}, {type(walker.controller).__name__}",
+        "title": f"Controller of the robot {robot.name}, {type(walker.controller).__name__}",
         "about": _about(computer),
-        "joints": [f"q[{i}] {joint}, {unit}" for i, (joint, unit) in numbered],
-        "joint_names": joints,
+        "joints": robot.joints,
         "n": k.n,
         "p": k.p,
         "period": decimal(walker.clock.period),
         # an index from p on stands for a torque that changes its sign (`types.relabelled`)
         "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.plant.swap.tolist()],
         "rates_read": functions_.rates,
-        "rates": _rates(functions_.rates, k.n),
-        # C text of a test: x - x is 0 for a finite x alone
-        "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",
-        "limits": "".join(f", {x}" for x in limits),
-        "clock": (
-            "at the same instant, which restarts the clock of sample instants"
-            if walker.clock.restart
-            else "at the next sample instant"
-        ),
+        "torque_limit": walker.torque_limit,
+        "change": computer.held.motors.change,  # the limit of the torque's rate, times the period
+        "restart": walker.clock.restart,
         "fields": functions_.fields,
         # fields with torques on their way to the motors
         "line": ("queue", "waiting", "acting"),
@@ -173,25 +156,9 @@ def _about(computer: Computer) -> list[str]:
     return lines
 
 
-def _rates(rates: tuple[int, ...], n: int) -> str:
-    """Sentence for the header on which of the n rates v have to be measured; rates: indices of those that
-    `step` reads.
-    """
-    if len(rates) == n:
-        return "v are their rates."
-    read = ", ".join(f"v[{i}]" for i in rates) or "none"
-    return f"v are their rates; init reads all of them, zero at rest; step reads {read}."
-
-
 def rendered_c(template: str, words: Mapping[str, object]) -> str:
     """Text of a file: its template, filled in with `words`, the values that it names."""
     return _environment(Path(template).suffix).get_template(f"{template}.j2").render(words)
-
-
-def _sine_in_double(texts: Iterable[Written]) -> bool | None:
-    """Whether sin or cos is in double also if `real` is float; None where the text has neither."""
-    calls = [line for text in texts for line in text.lines if "(sine)" in line]
-    return any("F(sine)" not in line for line in calls) if calls else None
 
 
 @cache

@@ -34,7 +34,7 @@ from PIL import Image, ImageDraw
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array, Flags, frozen
 from biped_adrc.extras.gym.stage import LearnerTask, Stage
-from biped_adrc.scenario.scenario import MOST_SEED, Scenario
+from biped_adrc.scenario.scenario import MOST_SEED
 from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.view.colours import TRUNK
 from biped_adrc.view.from_the_side.moving_parts import COLOURS
@@ -42,6 +42,10 @@ from biped_adrc.view.from_the_side.side_view import bones, placed_lines, roles_o
 from biped_adrc.view.placement import TILE, joint_values, link_placements
 from biped_adrc.view.style import GREY
 
+Infos = dict[str, Any]
+"""Gymnasium's further results by name."""
+Options = dict[str, Any] | None
+"""Gymnasium's options of `reset`, of which these environments have none."""
 PICTURES: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 1000}
 """Gymnasium's description of the pictures of `render`."""
 
@@ -54,7 +58,7 @@ def spaces_of(stage: Stage) -> tuple[Box, Box]:
     return observations, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
 
 
-def check_options(options: dict[str, Any] | None) -> None:
+def check_options(options: Options) -> None:
     """Raise InputError if Gymnasium's `reset` is called with options, as this environment has none."""
     if options:
         raise InputError(f"reset has the options {sorted(options)}, expected none")
@@ -78,22 +82,14 @@ class WalkEnv(gymnasium.Env[Any, Any]):
 
     metadata = PICTURES
 
-    def __init__(
-        self,
-        scenario: Scenario | None = None,
-        condition: str | None = None,
-        render_mode: str | None = None,
-        **values: Any,
-    ):
+    def __init__(self, render_mode: str | None = None, **values: Any):
         """Make the walk, which `reset` begins, and Gymnasium's spaces; arguments as in the class."""
-        task, self.render_mode = LearnerTask.of(scenario, condition, **values), render_mode
-        self.stage = Stage(task, 1, render_mode is not None)  # of one walk
+        self.render_mode = render_mode
+        self.stage = Stage(LearnerTask.of(**values), 1, render_mode is not None)  # of one walk
         self.observation_space, self.action_space = spaces_of(self.stage)
         self.picture = Picture(self.stage) if render_mode else None
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Array, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: Options = None) -> tuple[Array, Infos]:
         """Begin the walk anew with this seed, or one that is drawn; returns the first observation and the info
         (`Stage.infos`).
 
@@ -105,7 +101,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         self.stage.begin(0, int(self.np_random.integers(MOST_SEED)) if seed is None else seed)
         return self.stage.observations()[0], self._info()
 
-    def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
+    def step(self, action: Array) -> tuple[Array, float, bool, bool, Infos]:
         """Walk one sample under an action (p,), shares of the torque limit from -1 to 1.
 
         Returns observation, reward [1], whether the walk has fallen, whether it has reached its time or number
@@ -118,10 +114,9 @@ class WalkEnv(gymnasium.Env[Any, Any]):
             raise InputError("there is no walk that goes on; call reset() first")
         stage.move(finite_numbers("action", action, (stage.plant.p,))[np.newaxis])
         fallen, late = (bool(over[0]) for over in stage.ended())
-        reward = float(stage.rewards()[0])
-        return stage.observations()[0], reward, fallen, late, self._info()
+        return stage.observations()[0], float(stage.rewards()[0]), fallen, late, self._info()
 
-    def _info(self) -> dict[str, Any]:
+    def _info(self) -> Infos:
         """The entries of `Stage.infos` of the only walk, as plain numbers and text."""
         infos = self.stage.infos().items()
         return {name: x[0] if name == "status" else x.item() for name, x in infos}
@@ -141,19 +136,11 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
 
     metadata = PICTURES | {"autoreset_mode": AutoresetMode.NEXT_STEP}
 
-    def __init__(
-        self,
-        num_envs: int = 1,
-        scenario: Scenario | None = None,
-        condition: str | None = None,
-        render_mode: str | None = None,
-        **values: Any,
-    ):
+    def __init__(self, num_envs: int = 1, render_mode: str | None = None, **values: Any):
         """Make the walks, which `reset` begins, and Gymnasium's spaces; arguments as in the class."""
         check_count(num_envs, f"num_envs is {num_envs}")
         self.num_envs, self.render_mode = num_envs, render_mode
-        task = LearnerTask.of(scenario, condition, **values)
-        self.stage = Stage(task, num_envs, render_mode is not None)
+        self.stage = Stage(LearnerTask.of(**values), num_envs, render_mode is not None)
         self.single_observation_space, self.single_action_space = spaces_of(self.stage)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
@@ -165,11 +152,8 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         self.picture = Picture(self.stage) if render_mode else None
 
     def reset(
-        self,
-        *,
-        seed: int | Sequence[int | None] | None = None,
-        options: dict[str, Any] | None = None,
-    ) -> tuple[Array, dict[str, Any]]:
+        self, *, seed: int | Sequence[int | None] | None = None, options: Options = None
+    ) -> tuple[Array, Infos]:
         """Begin all walks anew; returns the first observations (N, ..), a row for each walk, and the infos.
 
         seed: as in the class; None, also in a list, draws one. Raises InputError for options, and for a list of
@@ -194,10 +178,9 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         """
         if seed is not None:
             self.generators[i], _ = seeding.np_random(seed)
-        drawn = int(self.generators[i].integers(MOST_SEED)) if seed is None else seed
-        self.stage.begin(i, drawn)
+        self.stage.begin(i, int(self.generators[i].integers(MOST_SEED)) if seed is None else seed)
 
-    def step(self, actions: Array) -> tuple[Array, Array, Flags, Flags, dict[str, Any]]:
+    def step(self, actions: Array) -> tuple[Array, Array, Flags, Flags, Infos]:
         """Walk one sample of each walk under actions (N, p), shares of the torque limit from -1 to 1; a walk
         that ended at the last step begins anew instead.
 
@@ -216,7 +199,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         self.over = fallen | late
         return stage.observations(), rewards, fallen, late, self._infos()
 
-    def _infos(self) -> dict[str, Any]:
+    def _infos(self) -> Infos:
         """The arrays (N,) of `Stage.infos` by name, and for each Gymnasium's mask `_name` of the walks that
         have this entry: all (`there` is all true).
         """

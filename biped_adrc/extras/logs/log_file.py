@@ -104,13 +104,11 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
     _check_pairs(log.has_rate, biped)
     legs = 2.0 - log.step % 2.0
     q, v, u = relabel_legs(legs, log.q, log.rates, log.u, biped)
-    signals = {"q": q, "v": v, "u": u}
     columns = {"t [s]": log.t, CONTACT: legs.astype(int)}
-    # _numbered: names such as q1; _UNITS: unit by the first letter
-    for name in _numbered(biped):
-        i = int(name[1:]) - 1
-        if name[0] != "v" or log.has_rate[i]:
-            columns[f"{name} [{_UNITS[name[0]]}]"] = signals[name[0]][:, i]
+    for letter, x in {"q": q, "v": v, "u": u}.items():
+        for i, column in enumerate(x.T):
+            if letter != "v" or log.has_rate[i]:
+                columns[f"{letter}{i + 1} [{_UNITS[letter]}]"] = column
     return write_csv(columns, path)
 
 
@@ -133,18 +131,11 @@ def relabel_legs(
 def _check_pairs(measured: Flags, biped: Biped) -> None:
     """Raise InputError where the rate of a joint is measured on one leg and not on the other; measured (n,)."""
     # R (n, n), q+ = R q-, exchanges the names of the legs: it has an entry i, j where v_j becomes v_i
-    alone = np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured) + 1
-    if len(alone):
+    for i, j in np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured)[:1] + 1:
         raise InputError(
-            f"the log has v{alone[0, 0]} and not v{alone[0, 1]}, of which it is made when the legs are "
-            "exchanged; expected both, or none of them"
+            f"the log has v{i} and not v{j}, of which it is made when the legs are exchanged; expected both, "
+            "or none of them"
         )
-
-
-def _numbered(biped: Biped) -> list[str]:
-    """Names of the columns of q, v and u without units, such as q1."""
-    sizes = {"q": biped.n, "v": biped.n, "u": biped.p}
-    return [f"{letter}{i}" for letter, size in sizes.items() for i in range(1, size + 1)]
 
 
 def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
@@ -153,7 +144,9 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
 
     head: headings of the file. Raises InputError for a column that is missing, or there twice, and for units.
     """
-    known, result = ["t", CONTACT, STEP, *_numbered(biped)], dict[str, tuple[int, float]]()
+    sizes, result = {"q": biped.n, "v": biped.n, "u": biped.p}, dict[str, tuple[int, float]]()
+    numbered = (f"{letter}{i}" for letter, size in sizes.items() for i in range(1, size + 1))
+    known = ["t", CONTACT, STEP, *numbered]
     for at, text in enumerate(head):
         # _COLUMN: name of a column and its unit in brackets
         match = _COLUMN.fullmatch(text)

@@ -248,17 +248,15 @@ class Replay(Shown):
         q_b - x1^ [mrad]; the torque of the controller over the one in the log [N m]. The window of contact
         after each touchdown is shaded.
         """
-        from biped_adrc.view.plots.over_time import curves, finished, say_no_observer, with_gaps
+        from biped_adrc.view.plots.over_time import curves, finished, line, say_no_observer
         from biped_adrc.view.style import GREY, new_figure
 
-        # with_gaps: a line with a gap at each touchdown
-        x, t = self.signals, with_gaps(self.signals, self.signals.t)
+        x = self.signals
         look: Any = {"color": GREY, "alpha": 0.2, "lw": 0.0, "label": "contact"}
         with new_figure(8.0, 7.0, self.scenario.controller.name) as figure:
             beyond, residual, torque = figure.subplots(3, 1, sharex=True)
             for k, u in enumerate(x.u.T):
-                name = "in the log" if k == 0 else "_"
-                torque.plot(t, with_gaps(x, u), color=GREY, lw=0.8, ls=":", label=name)
+                line(torque, x, u, k, "_" if k else "in the log", color=GREY, lw=0.8, ls=":")
             for axes, values, symbol, unit in (
                 (beyond, x.zeta_estimate, r"\hat\zeta", "beyond the model [N m]"),
                 (residual, 1e3 * x.residual, "q", "residual [mrad]"),
@@ -326,8 +324,7 @@ def replay(
             f"the log has {has[0]} angles and {has[1]} torques, expected {wants[0]} and {wants[1]} of robot "
             f"'{scenario.robot.name}'"
         )
-    remarks = *result.remarks, *check_reading(result, scene.biped)
-    result = replace(result, remarks=remarks)
+    result = replace(result, remarks=(*result.remarks, *check_reading(result, scene.biped)))
     period = scenario.hardware.period or result.period
     if not result.even(period):
         result = result.resampled(period)

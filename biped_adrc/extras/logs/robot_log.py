@@ -108,8 +108,7 @@ class RobotLog(Shown):
         Angles and rates are interpolated linearly between rows; the torque of a new row is the mean, over its
         period, of the torques that were held. A remark says so.
         """
-        begins = np.flatnonzero(np.diff(self.step)) + 1
-        supports = np.split(np.arange(len(self.t)), begins)
+        supports = np.split(np.arange(len(self.t)), np.flatnonzero(np.diff(self.step)) + 1)
         # _support: t, step, q, u, v of one single support on the new clock
         parts = zip(*(self._support(rows, period) for rows in supports), strict=True)
         t, step, q, u, v = (np.concatenate(x) for x in parts)
@@ -156,15 +155,14 @@ def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[
             "rows of each: (K,), (K,), (K, n), (K, p), (K, n)"
         )
     table = np.column_stack((t, step, q, v, u))
-    bad = np.flatnonzero(~np.all(np.isfinite(table), axis=1))
-    if len(bad):
-        raise InputError(f"{names[bad[0]]} of the log has {table[bad[0]]}, expected finite numbers")
-    change = np.diff(step, prepend=step[:1])
-    bad = np.flatnonzero((step != np.round(step)) | (step < 1.0) | ~np.isin(change, (0.0, 1.0)))
-    if len(bad):
+    # `[:1]`: the first wrong row is reported
+    for k in np.flatnonzero(~np.all(np.isfinite(table), axis=1))[:1]:
+        raise InputError(f"{names[k]} of the log has {table[k]}, expected finite numbers")
+    grows = np.isin(np.diff(step, prepend=step[:1]), (0.0, 1.0))
+    for k in np.flatnonzero((step != np.round(step)) | (step < 1.0) | ~grows)[:1]:
         raise InputError(
-            f"{names[bad[0]]} of the log is of single support {step[bad[0]]:g}, expected whole numbers from 1 "
-            "that grow by 1 at a touchdown"
+            f"{names[k]} of the log is of single support {step[k]:g}, expected whole numbers from 1 that grow "
+            "by 1 at a touchdown"
         )
     _check_times(t, step, names)
 

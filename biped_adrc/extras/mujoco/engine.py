@@ -58,9 +58,7 @@ class MuJoCoEngine:
     index in a row.
     """
 
-    def __init__(
-        self, biped: Biped, model: MuJoCoModel, h: float, integrator: str, lag: float = 0.0
-    ):
+    def __init__(self, biped: Biped, model: MuJoCoModel, h: float, integrator: str, lag: float):
         """Make the data and look up the indices; arguments as in the class."""
         self.biped, self.model, self.h, self.lag = biped, model, h, lag
         self.data = data = mujoco().MjData(model)

@@ -66,9 +66,8 @@ def floating_mjcf(
     the ground itself, so that the sphere of a foot touches when its centre, the foot point, is on the ground.
     """
     d = biped.description
-    contact = {"cone": "elliptic", "impratio": text(ground.impratio)}
     # root: the element <mujoco>, world: its <worldbody>; {}: MuJoCo's usual flags
-    root, world = _world(biped, h, contact, {})
+    root, world = _world(biped, h, {"cone": "elliptic", "impratio": text(ground.impratio)}, {})
     joints = {joint.name: joint for joint in biped.tree.joints}
     # place (x, 0, z) of the planes, along the normal ground_axes(..)[1] = (x, z) of the ground, and rotation by
     # the slope about y as a quaternion (w, x, y, z)
@@ -139,9 +138,7 @@ def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) 
         ET.SubElement(body, "inertial", {"pos": text(inertial.com)} | full)
     # [N m s/rad] and [N m] by coordinate; zero for a robot without friction (biped.friction False)
     viscous, static = np.array(biped.friction_coefficients) * biped.friction
-    for joint in joints:
-        if joint.type == "fixed":
-            continue
+    for joint in (x for x in joints if x.type != "fixed"):
         # _KINDS: type of a joint -> MuJoCo's type
         own = {"name": joint.name, "type": _KINDS[joint.type], "axis": text(joint.axis)}
         if joint.name in d.actuated:

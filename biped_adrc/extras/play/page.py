@@ -37,9 +37,7 @@ from biped_adrc.view.placement import Clip, WalkScene, placed
 FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
 """Scenario of a page if the caller gives none: that of the tour."""
 OTHERS: Mapping[str, Mapping[str, object]] = {
-    "NPD": {"controller.name": "NPD"},
-    "NPID": {"controller.name": "NPID"},
-    "ADRC": {"controller.name": "ADRC"},
+    **{name: {"controller.name": name} for name in ("NPD", "NPID", "ADRC")},
     **{
         f"ADRC, m = {m}, 300 rad/s": {
             "controller": {"name": "ADRC", "observer": {"order": m, "bandwidth": 300.0}}
@@ -173,8 +171,7 @@ def laid_out(walk: PageWalk) -> WalkScene:
     # _AROUND: length of the ground before and behind the robot
     footholds = np.linspace(-_AROUND, _AROUND, PRINTS)
     run = Trajectory((arc,) * PRINTS, Status.COMPLETED)
-    slope = walk.walker.ground_slope
-    return WalkScene(walk.walker, run, footholds, -math.tan(slope) * footholds)
+    return WalkScene(walk.walker, run, footholds, -math.tan(walk.walker.ground_slope) * footholds)
 
 
 def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:

@@ -82,9 +82,8 @@ class Slider(NamedTuple):
         """A copy of the slider with a table of its values: round ones of a logarithmic range, else 21 even
         ones.
         """
-        decades = 10.0 ** np.arange(-9, 9)
-        # ROUND: first two digits of the round values
-        known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
+        # ROUND: first two digits of the round values, which are in all decades
+        known = np.unique(np.outer(10.0 ** np.arange(-9, 9), ROUND).round(12))
         even = np.linspace(self.low, self.high, 21).round(6)
         values = known[(known >= self.low) & (known <= self.high)] if self.log else even
         return self._replace(table=tuple(values.tolist()))

@@ -368,20 +368,15 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
     of its point.
     """
     # the hand has the terms of `with_hand`: [0] a torque on the coordinates, [1] a force on a link
-    n, hand = code.walker.plant.n, code.walker.disturbance
+    hand, first = code.walker.disturbance, code.plan.place("push")
     assert hand is not None
-
-    names = list(paths(hand.terms))
-
-    def places(name: str, size: int) -> list[int]:
-        # from the cell "push" on stand the numbers of the disturbance, in the order of `names`
-        first = code.plan.place("push") + names.index(f"{name}[0]")
-        return list(range(first, first + size))
-
+    # from the cell "push" on stand the numbers of the disturbance, in the order of `paths`
+    at = {name: first + k for k, name in enumerate(paths(hand.terms))}
     return {
-        "torque": places("[0].amplitude", n),
-        "force": places("[1].wave.amplitude", 2),  # (F_x, F_z); the moment behind them stays zero
-        **{name: places(f"[1].point.{name}", 1)[0] for name in ("re", "im", "turn")},
+        "torque": [at[f"[0].amplitude[{k}]"] for k in range(code.walker.plant.n)],
+        # (F_x, F_z); the moment behind them stays zero
+        "force": [at[f"[1].wave.amplitude[{k}]"] for k in range(2)],
+        **{name: at[f"[1].point.{name}[0]"] for name in ("re", "im", "turn")},
     }
 
 

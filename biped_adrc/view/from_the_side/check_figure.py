@@ -52,12 +52,8 @@ def check_figure(biped: Biped) -> Figure:
                 axes.plot(*zip(_at(places[name]), end, strict=True), color=colour, lw=2.5)
         # bent arrows in the senses of the joints, of this radius [m]
         _senses(axes, biped, places, 0.07 * leg)
-        points = {
-            "stance foot": np.zeros(2),
-            "swing foot": biped.swing_foot(q),
-            "hip": biped.hip(q),
-        }
-        for text, point in points.items():
+        marks = {"stance foot": np.zeros(2), "swing foot": biped.swing_foot(q), "hip": biped.hip(q)}
+        for text, point in marks.items():
             # 1: to the right of the point; 4.0 and -12.0: how far to the right and upwards, in points of type
             axes.plot(*point, "s", color="black", ms=5, zorder=5)
             _write(axes, point, text, 1, "black", 4.0, -12.0)
@@ -96,8 +92,6 @@ def _write(
     """Write a text beside a point (2,) [m]: from `out` to the right of it (side 1) or to the left (side -1),
     and `up` above it, both in typographic points.
     """
-    ends = "left" if side > 0 else "right"
+    ha = "left" if side > 0 else "right"
     far = (side * (4.0 + out), up - 4.0)
-    axes.annotate(
-        literal(text), tuple(point), far, textcoords="offset points", ha=ends, color=colour
-    )
+    axes.annotate(literal(text), tuple(point), far, textcoords="offset points", ha=ha, color=colour)

@@ -35,11 +35,6 @@ LETTER = 9.5
 """Width of a letter of 11 points [px], of the wide ones."""
 
 
-def blank(width: float, height: float) -> Figure:
-    """An empty figure of width x height [px]."""
-    return Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
-
-
 def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[Array]:
     """Draw the figure at the times (K,) [s]; returns the pixels (height, width, 3) of each, 0 to 255.
 
@@ -72,11 +67,11 @@ def ground(axes: Axes, views: list[SideView]) -> None:
     lines = [view.scene.surface.line(low, high) for view in views]
     for line in {line.tobytes(): line for line in lines}.values():
         axes.plot(*line.T, color="black", lw=1.0, zorder=1)
-    for ends, light in views[-1].scene.surface.tiles(round(low / TILE), round(high / TILE)):
+    scene = views[-1].scene
+    for ends, light in scene.surface.tiles(round(low / TILE), round(high / TILE)):
         shade = "#c8c8c8" if light else "#9e9e9e"
         edge, top = ends.T
         axes.fill_between(edge, top - 0.05, top, color=shade, lw=0.0, zorder=0)
-    scene = views[-1].scene
     if scene.walker.stones is not None:
         half = scene.walker.stones.tolerance
         # a walk may have more or fewer footholds than stones
@@ -169,17 +164,15 @@ class DrawnWalk:
 
         A force as large as the robot's weight has the length `WEIGHT_LENGTH`; a short arrow has a small head.
         """
-        vector = self.view.metres_per_newton * force
+        vector = colours.WEIGHT_LENGTH / self.view.scene.biped.weight * force
         length, words = float(np.hypot(*vector)), ""
         if not math.isfinite(length):
             vector, length, words = np.zeros(2), 0.0, "no finite force, arrow cut"
         elif length > colours.LONGEST_ARROW:
             vector, length = colours.LONGEST_ARROW / length * vector, colours.LONGEST_ARROW
             words = f"{np.hypot(*force):.3g} N, arrow cut"
-        self.arrows[k].set_visible(length > 0.0)
-        head = min(0.09, length)
+        arrow, head = self.arrows[k], min(0.09, length)
+        arrow.set_visible(length > 0.0)
         x, y, dx, dy = (*start, *vector)
-        self.arrows[k].set_data(
-            x=x, y=y, dx=dx, dy=dy, head_width=0.07 * head / 0.09, head_length=head
-        )
+        arrow.set_data(x=x, y=y, dx=dx, dy=dy, head_width=0.07 * head / 0.09, head_length=head)
         return vector, words

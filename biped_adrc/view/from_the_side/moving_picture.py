@@ -29,11 +29,9 @@ from biped_adrc.core.types import Array
 from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE, TRUNK
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView
-from biped_adrc.view.placement import Clip, Drawable, WalkScene, check_frames, ending
+from biped_adrc.view.placement import GHOST, Clip, Drawable, WalkScene, check_frames, ending
 from biped_adrc.view.style import label, literal, new_figure, style, write_figure
 
-_GHOST = 0.35
-"""Opacity of all walks but the solid one."""
 WIDTH, SHOWN = 600, 2.6
 """Width of the picture of walks laid over one another [px], [m]."""
 WIDE, PANEL = 800, 1.5
@@ -92,73 +90,62 @@ def moving_figure(
     pace: text on how slow the picture is, in the caption; empty for the pace of the walk. apart: the walks are
     side by side, in panels as high as the tallest robot needs, and not over one another.
     """
-    groups = [{name: walk} for name, walk in walks.items()] if apart else [walks]
-    # widths of the picture [px] and what it shows [m], side by side or over one another
-    width, shown = (WIDE, PANEL) if apart else (WIDTH, SHOWN)
-    share, panels = 1.0 / len(groups), []
-    views = [[SideView(WalkScene.of(walk)) for walk in group.values()] for group in groups]
-    # x[-1]: the walk that the picture of a group follows
-    tallest = max(draw.HEADROOM * x[-1].height + draw.SOLE for x in views)
+    views = {name: SideView(WalkScene.of(walk)) for name, walk in walks.items()}
+    groups = [{name: view} for name, view in views.items()] if apart else [views]
+    # widths of the picture [px] and of what a panel shows [m], and the share [1] of it to the left of the hip
+    # of the last walk, which keeps its place; side by side or over one another
+    width, shown, ahead = (WIDE, PANEL, 0.5) if apart else (WIDTH, SHOWN, 0.6)
+    share, around = 1.0 / len(groups), (ahead * shown, (1.0 - ahead) * shown)
+    solid = [[*group.values()][-1] for group in groups]
+    tallest = max(draw.HEADROOM * view.height + draw.SOLE for view in solid)
     # a metre has the same number of pixels in width and in height
-    figure = draw.blank(width, share * width * tallest / shown)
-    for k, group in enumerate(groups):
-        axes = figure.add_axes((k * share, 0.0, share, 1.0))
-        # 0.5, 0.6: share of the panel's width to the left of the hip, which the picture follows
-        panels.append(_Panel(axes, group, views[k], pace, 0.5 if apart else 0.6, shown))
+    size = width / draw.DPI, share * width * tallest / shown / draw.DPI
+    figure = Figure(figsize=size, dpi=draw.DPI)
+    places = (figure.add_axes((k * share, 0.0, share, 1.0)) for k in range(len(groups)))
+    panels = [_panel(x, group, pace, around) for x, group in zip(places, groups, strict=True)]
 
     def show(t: float) -> None:
         for panel in panels:
-            panel.show(t)
+            panel(t)
 
     return figure, show
 
 
-class _Panel:
-    """Walks laid over one another in the same axes.
+def _panel(
+    axes: Axes, views: Mapping[str, SideView], pace: str, around: tuple[float, float]
+) -> Callable[[float], None]:
+    """Prepare walks laid over one another in the same axes; returns the function that draws them at t [s],
+    later at each call.
 
-    The last walk is solid, the others are translucent; its hip keeps its place in the picture, at the share
-    `ahead` [1] of the width `shown` [m] from the left, and the ground moves. A caption says time, step and
-    pace, and how walks have ended. views: of the walks, in their order.
+    The last walk is solid, the others are translucent; its hip keeps its place in the picture, with the metres
+    of ground `around` to its left and right, and the ground moves. A caption says time, step and pace, and how
+    walks have ended. views: of the walks, by name.
     """
+    *ghosts, solid = views
+    last = views[solid]
+    axes.set_axis_off()
+    draw.ground(axes, list(views.values()))
+    # each walk has a layer, from 2 on, since the ground is drawn in those below
+    drawn = [
+        draw.DrawnWalk(axes, view, 1.0 if view is last else GHOST, k)
+        for k, view in enumerate(views.values(), start=2)
+    ]
+    caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid
+    text = axes.text(0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90)
+    text.set_parse_math(False)  # a dollar in a name is no formula
+    text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
 
-    def __init__(
-        self,
-        axes: Axes,
-        walks: Mapping[str, Drawable],
-        views: Sequence[SideView],
-        pace: str,
-        ahead: float,
-        shown: float,
-    ) -> None:
-        self.axes, self.last, self.pace = axes, views[-1], pace
-        self.around = ahead * shown, (1.0 - ahead) * shown  # [m] to the left and right of the hip
-        self.runs = {name: walk.trajectory for name, walk in walks.items()}
-        axes.set_axis_off()
-        draw.ground(axes, list(views))
-        # each walk has a layer, from 2 on, since the ground is drawn in those below
-        self.drawn = [
-            draw.DrawnWalk(axes, view, 1.0 if view is self.last else _GHOST, k)
-            for k, view in enumerate(views, start=2)
-        ]
-        *ghosts, solid = walks
-        self.caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid
-        self.text = axes.text(
-            0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90
-        )
-        self.text.set_parse_math(False)  # a dollar in a name is no formula
-        self.text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
-
-    def show(self, t: float) -> None:
-        """Draw the walks at t [s], later than at the last call, and the caption of that time."""
-        # around: metres of ground shown to the left and to the right of the hip
-        draw.follow(self.axes, self.last, t, *self.around)
-        for walk in self.drawn:
+    def show(t: float) -> None:
+        draw.follow(axes, last, t, *around)
+        for walk in drawn:
             walk.show(t)
-        ends = {name: ending(run) for name, run in self.runs.items() if t >= run.t_end}
+        runs = {name: view.scene.trajectory for name, view in views.items()}
+        ends = {name: ending(run) for name, run in runs.items() if t >= run.t_end}
         over = [f"{name} {end}" for name, end in ends.items() if end]
-        clock = ", ".join(filter(None, (f"t = {t:.2f} s, step {self.last.step(t)}", self.pace)))
-        words = "\n".join((self.caption, clock, *over))
-        self.text.set_text(draw.wrapped(words, 0.96 * self.axes.bbox.width))
+        clock = ", ".join(filter(None, (f"t = {t:.2f} s, step {last.step(t)}", pace)))
+        text.set_text(draw.wrapped("\n".join((caption, clock, *over)), 0.96 * axes.bbox.width))
+
+    return show
 
 
 def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:

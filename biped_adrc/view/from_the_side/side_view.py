@@ -14,7 +14,6 @@ import numpy as np
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Link, Tree, Visual
-from biped_adrc.view.colours import WEIGHT_LENGTH
 from biped_adrc.view.placement import WalkScene, exchanged, legs, link_placements, spokes
 
 
@@ -82,12 +81,8 @@ def _axis(visual: Visual) -> Array | None:
     if visual.shape == "sphere":
         return None
     # a cylinder has the size (radius, length) and lies along z; a box has three edges
-    along = np.zeros(3)
-    if visual.shape == "cylinder":
-        along[2] = 0.5 * visual.size[1]
-    else:
-        longest = int(np.argmax(visual.size))
-        along[longest] = 0.5 * visual.size[longest]
+    edges = np.array((0.0, 0.0, visual.size[1]) if visual.shape == "cylinder" else visual.size)
+    along = np.where(np.arange(3) == np.argmax(edges), 0.5 * edges, 0.0)
     return np.array(visual.origin) + np.array([-along, along])
 
 
@@ -144,8 +139,3 @@ class SideView:
     def width(self) -> float:
         """Largest horizontal distance of the robot from its stance foot on this walk, to either side [m]."""
         return float(np.abs(self._about_foot[:, 0]).max())
-
-    @cached_property
-    def metres_per_newton(self) -> float:
-        """Scale of the arrow of the ground reaction [m/N]: the robot's weight gives `WEIGHT_LENGTH`."""
-        return WEIGHT_LENGTH / self.scene.biped.weight

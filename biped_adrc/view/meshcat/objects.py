@@ -29,7 +29,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Joint, Tree, Visual
 from biped_adrc.view.colours import bent_arrow
-from biped_adrc.view.placement import TILE, WalkScene, joint_transform, legs, placed, spokes, turn
+from biped_adrc.view.placement import TILE, WalkScene, joint_transform, placed, spokes, turn
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -59,10 +59,9 @@ def paint(rgb: _Colour, opacity: float = 1.0) -> object:
 
 def colour(rgb: _Colour) -> int:
     """Convert a colour to Meshcat's whole number 0xRRGGBB; an opacity in it is left out."""
-    red, green, blue = (
-        (round(255 * c) for c in rgb[:3]) if isinstance(rgb, tuple) else bytes.fromhex(rgb[1:])
-    )
-    return red << 16 | green << 8 | blue
+    if isinstance(rgb, str):
+        return int(rgb[1:], 16)
+    return int.from_bytes(round(255 * c) for c in rgb[:3])
 
 
 # -- robot -----------------------------------------------------------------------------------------
@@ -106,16 +105,6 @@ UPRIGHT = turn((1.0, 0.0, 0.0), 0.5 * math.pi)
 """(3, 3): turns y, the axis of Meshcat's cylinders, to z, that of the URDF's."""
 
 
-def leg_visuals(biped: Biped) -> list[list[str]]:
-    """Paths, below the robot's node, of the drawn parts of each leg: first of the leg that carries odd steps,
-    then of the other.
-
-    The player colours them as stance leg and swing leg, which are exchanged at impact.
-    """
-    drawn = visual_links(biped.tree)
-    return [[path for path, link in drawn if link in leg] for leg in legs(biped)]
-
-
 def visual_links(tree: Tree) -> list[tuple[str, str]]:
     """(path below the robot's node, name of the link) of every primitive; a wheel has those of one
     spoke, as its URDF draws one alone."""
@@ -133,8 +122,8 @@ def sole(biped: Biped) -> float:
 
 
 # -- what surrounds it -----------------------------------------------------------------------------
-def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> list[str]:
-    """Draw a flat plate under every stance foot; returns the names of their nodes, in order.
+def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> None:
+    """Draw a flat plate under every stance foot; the name of its node is the index of the foothold.
 
     depth [m]: of the plates below the footholds. opacity: 0 to 1.
     """
@@ -142,7 +131,6 @@ def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: flo
         plate = node[f"{k}"]
         plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
         plate.set_transform(under(scene.foothold(k), scene.walker.ground_slope, depth))
-    return [f"{k}" for k in range(len(scene.footholds))]
 
 
 def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0) -> Array:

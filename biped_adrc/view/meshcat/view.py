@@ -13,13 +13,10 @@ of a stance foot. An arc is the motion of one single support; its state x begins
 their n rates.
 """
 
-from __future__ import annotations
-
 import base64
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -27,14 +24,11 @@ from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.biped import Biped
 from biped_adrc.view import colours, placement
-from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.pages import with_viewer
 from biped_adrc.view.placement import Clip, Drawable, WalkScene, ending, exchanged, joint_values
 
-_GHOST = 0.35
-"""Opacity of a ghost (1 is solid)."""
 LANE = 0.4
 """Distance [m] of each ghost from the walk before it, away from the camera: equal planes would flicker."""
 _FPS = 60.0
@@ -45,6 +39,49 @@ TALL = 1.6
 """Height [m] of the highest robot that the cameras show from where they are for RABBIT."""
 Marks = Sequence[tuple[float, float, str]]
 """(start, stop, text) of what is shown beside the clock, times in [s]."""
+EPSILON = 1e-6
+"""Half the interval [s] of the central difference by which the rates of the joints, the base among them, are
+computed."""
+
+
+class Pose(NamedTuple):
+    """Everything that is drawn of a walk at one time."""
+
+    joints: Array
+    """(J,) values of the moving joints, in the order of the URDF [rad], [m]."""
+    rates: Array
+    """(J,) rates of these joints [rad/s], [m/s]."""
+    loads: Array
+    """(2 + n,): force of the ground on the stance foot along x and z [N], and the external torque on the drawn
+    joints of q1..qn [N m]."""
+    points: Array
+    """(4,): x and z of the hip and of the swing foot in the world [m]."""
+    contact: Array
+    """(5,): x, z of the stance foot [m], force on the other foot along x, z [N], and 1 where a foot slips."""
+
+
+class Frames(NamedTuple):
+    """A walk in K samples, one in each row; at an impact there are two, before and after it."""
+
+    t: Array
+    """Times (K,) [s]."""
+    arc: Array
+    """(K,) index of the single support, from 0."""
+    poses: Pose
+    """The poses at these times, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
+
+    @classmethod
+    def of(cls, scene: WalkScene, fps: float) -> Self:
+        """Sample a walk `fps` [1/s] times per second, and at the other times that the head of this module
+        names. Raises InputError for too many frames.
+        """
+        placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
+        # _nodes: the times [s] at which one single support is sampled
+        of_arcs = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
+        at = [(i, t) for i, times in enumerate(of_arcs) for t in times]
+        arcs, times = map(np.array, zip(*at, strict=True))
+        poses = zip(*(pose(scene, i, t) for i, t in at), strict=True)
+        return cls(times, arcs, Pose(*map(np.array, poses)))
 
 
 def animation_html(
@@ -94,7 +131,7 @@ def scene_settings(
     viewer = window.viewer
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
-        opacity, sampled = (1.0 if lane == 0 else _GHOST), (frames or {}).get(name)
+        opacity, sampled = (1.0 if lane == 0 else placement.GHOST), (frames or {}).get(name)
         # the traces of hip and swing foot get a point at each sample
         room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
@@ -130,7 +167,8 @@ def _add_walk(
     path: of the node `robot`. opacity: 0 to 1. room: number of points that each trace has room for.
 
         joints        path, type, axis and origin [m] of each moving joint, in the order of the samples
-        legs          paths of the parts of either leg; colours: of stance and swing leg, 0xRRGGBB
+        legs          paths of the parts of the leg that carries odd steps, and of the other; they get the
+                      colours of stance and swing leg, 0xRRGGBB, which are exchanged at impact
         rings, arrows, traces, footprints    paths of these; arrows of stance foot and other foot
         supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
         fall          tan(slope); ground: its height over the footholds [m], negative
@@ -140,12 +178,13 @@ def _add_walk(
     # depth: radius of the ball that is drawn as a foot, by which the ground lies below the footholds
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
+    drawn = [(f"{path}/{part}", link) for part, link in draw.visual_links(tree)]
     draw.add_robot(robot, biped, opacity)
-    prints = draw.add_footprints(robot["footprints"], scene, depth, opacity)
+    draw.add_footprints(robot["footprints"], scene, depth, opacity)
     draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
-    draw.add_trace(robot["foot_trace"], room, SWING, opacity)
+    draw.add_trace(robot["foot_trace"], room, colours.SWING, opacity)
     for arrow in ("ground_reaction", "other_reaction"):
-        draw.add_arrow(robot[arrow], REACTION, opacity)
+        draw.add_arrow(robot[arrow], colours.REACTION, opacity)
     rings = [_add_ring(robot, biped, name, opacity) for name in biped.description.joints]
     return {
         "joints": [
@@ -158,12 +197,12 @@ def _add_walk(
             for joint in tree.joints
             if joint.type != "fixed"
         ],
-        "legs": [[f"{path}/{part}" for part in leg] for leg in draw.leg_visuals(biped)],
-        "colours": [draw.colour(STANCE), draw.colour(SWING)],
+        "legs": [[part for part, link in drawn if link in leg] for leg in placement.legs(biped)],
+        "colours": [draw.colour(colours.STANCE), draw.colour(colours.SWING)],
         "rings": [f"{path}/{ring}/turn" for ring in rings],
         "arrows": [f"{path}/ground_reaction", f"{path}/other_reaction"],
         "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
-        "footprints": [f"{path}/footprints/{name}" for name in prints],
+        "footprints": [f"{path}/footprints/{k}" for k in range(len(scene.footholds))],
         "supports": [
             {
                 "number": arc.mode.step,
@@ -192,7 +231,7 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
     path = f"{draw.joint_path(biped.tree, joint)}/torque"
     motors = biped.description.actuated
     origin = (0.0, 0.0, 0.0) if name in motors or inertial is None else inertial.com
-    draw.add_ring(robot[path], origin, TORQUE, opacity)
+    draw.add_ring(robot[path], origin, colours.TORQUE, opacity)
     return path
 
 
@@ -205,60 +244,14 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
     # what an arrow, and the radius of a ring, of 0.1 m mean
     newtons = 0.1 * biped.weight / colours.WEIGHT_LENGTH
     torque = 0.1 / colours.METRES_PER_NEWTON_METRE
-    walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
+    walking = [(colours.STANCE.lower(), "stance leg"), (colours.SWING.lower(), "swing leg")]
     others = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
     return [
         ("", others if ghosts else f"{solid}."),
         *([] if placement.is_wheel(biped) else walking),
-        (REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
-        (TORQUE.lower(), f"torque from outside, radius 0.1 m = {torque:.0f} N m"),
+        (colours.REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
+        (colours.TORQUE.lower(), f"torque from outside, radius 0.1 m = {torque:.0f} N m"),
     ]
-
-
-EPSILON = 1e-6
-"""Half the interval [s] of the central difference by which the rates of the joints, the base among them, are
-computed."""
-
-
-class Pose(NamedTuple):
-    """Everything that is drawn of a walk at one time."""
-
-    joints: Array
-    """(J,) values of the moving joints, in the order of the URDF [rad], [m]."""
-    rates: Array
-    """(J,) rates of these joints [rad/s], [m/s]."""
-    loads: Array
-    """(2 + n,): force of the ground on the stance foot along x and z [N], and the external torque on the drawn
-    joints of q1..qn [N m]."""
-    points: Array
-    """(4,): x and z of the hip and of the swing foot in the world [m]."""
-    contact: Array
-    """(5,): x, z of the stance foot [m], force on the other foot along x, z [N], and 1 where a foot slips."""
-
-
-@dataclass(frozen=True)
-class Frames:
-    """A walk in K samples, one in each row; at an impact there are two, before and after it."""
-
-    t: Array
-    """Times (K,) [s]."""
-    arc: Array
-    """(K,) index of the single support, from 0."""
-    poses: Pose
-    """The poses at these times, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
-
-    @classmethod
-    def of(cls, scene: WalkScene, fps: float) -> Frames:
-        """Sample a walk `fps` [1/s] times per second, and at the other times that the head of this module
-        names. Raises InputError for too many frames.
-        """
-        placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
-        # _nodes: the times [s] at which one single support is sampled
-        of_arcs = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
-        at = [(i, t) for i, times in enumerate(of_arcs) for t in times]
-        arcs, times = map(np.array, zip(*at, strict=True))
-        poses = zip(*(pose(scene, i, t) for i, t in at), strict=True)
-        return cls(times, arcs, Pose(*map(np.array, poses)))
 
 
 def pose(scene: WalkScene, i: int, t: float) -> Pose:
@@ -293,5 +286,4 @@ def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
     # switching times may be outside of the arc
     edges = *scene.walker.switching_times(arc.mode), *placement.contact_changes(scene, arc)
-    inside = [t for t in (*frames, *edges) if start < t < end]
-    return np.unique([start, *inside, end])
+    return np.unique([start, *(t for t in (*frames, *edges) if start < t < end), end])

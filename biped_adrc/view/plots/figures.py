@@ -64,7 +64,7 @@ def tracking_figure(
         for k, joints in enumerate(halves):
             axes = figure.add_subplot(spec[0, k * width : (k + 1) * width])
             _zoom([over_time.joint_tracking(axes, signals, joints, push)], signals, push)
-        _around_and_edges(figure, spec, (1, 2), below, signals, push)
+        _around_and_edges(spec, (1, 2), below, signals, push)
         return figure
 
 
@@ -100,12 +100,7 @@ def _column(
 
 
 def _around_and_edges(
-    figure: FigureBase,
-    spec: Any,
-    rows: Sequence[int],
-    draws: Sequence[Panel],
-    s: Signals,
-    push: Window | None,
+    spec: Any, rows: Sequence[int], draws: Sequence[Panel], s: Signals, push: Window | None
 ) -> list[list[Axes]]:
     """Draw each of `draws` in a row of three columns: around the push, where it begins, and where it ends.
 
@@ -116,7 +111,7 @@ def _around_and_edges(
     """
     places = (slice(0, 2), slice(2, 3), slice(3, 4)) if push else (slice(0, 4),)
     cells = ([spec[row, place] for row in rows] for place in places)
-    around, *edges = (_column(figure, each, draws) for each in cells)
+    around, *edges = (_column(spec.figure, each, draws) for each in cells)
     _zoom(around, s, push)
     at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)  # a tick every 2 ms, the end included
     for column, edge, name in zip(edges, push or (), ("begins", "ends"), strict=False):
@@ -148,16 +143,13 @@ def _limits(column: Sequence[Axes], low: float, high: float) -> None:
         axes.set_xlim(low, high)
         shown = [np.asarray(line.get_data(), dtype=float) for line in axes.get_lines()]
         # lines of two points are marks, such as that of an impact, and no data
-        values = [y[(t >= low) & (t <= high)] for t, y in shown if len(t) > 2]
-        values = [y[np.isfinite(y)] for y in values]
-        ends = np.array([(y.min(), y.max()) for y in values if len(y)])
-        if not len(ends) or not ends[:, 1].max() > ends[:, 0].min():
-            continue
-        if axes.get_yscale() == "log":
-            axes.set_ylim(0.5 * ends[:, 0].min(), 2.0 * ends[:, 1].max())
-            continue
-        pad = 0.06 * (ends[:, 1].max() - ends[:, 0].min())
-        axes.set_ylim(ends[:, 0].min() - pad, ends[:, 1].max() + pad)
+        inside = (y[(t >= low) & (t <= high)] for t, y in shown if len(t) > 2)
+        values = np.concatenate([np.zeros(0), *inside])
+        values = values[np.isfinite(values)]
+        least, most = values.min(initial=np.inf), values.max(initial=-np.inf)
+        if most > least:
+            pad, log = 0.06 * (most - least), axes.get_yscale() == "log"
+            axes.set_ylim((0.5 * least, 2.0 * most) if log else (least - pad, most + pad))
 
 
 def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
@@ -202,16 +194,12 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
             _zoom([over_time.total_disturbance(axes, signals, i, push)], signals, push)
         # a row, number 0, of three panels: around the push, where it begins, where it ends
         draw = partial(over_time.matched_disturbance, s=signals, push=push)
-        _around_and_edges(below, below.add_gridspec(1, 4), (0,), [draw], signals, push)
+        _around_and_edges(below.add_gridspec(1, 4), (0,), [draw], signals, push)
         return figure
 
 
 def ground_figure(
-    signals: Signals,
-    title: str = "",
-    mu: float = 0.6,
-    slope: float = 0.0,
-    push: Window | None = None,
+    signals: Signals, title: str, mu: float, slope: float, push: Window | None
 ) -> Figure:
     """Draw the ground reaction [N] over time, and its tangential against its normal part in the friction cone.
 
@@ -251,9 +239,7 @@ def multiplier_plane(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
     return axes
 
 
-def magnitudes(
-    axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
-) -> Axes:
+def magnitudes(axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None) -> Axes:
     """Draw |lambda| of multipliers, in decreasing order, on a logarithmic scale; returns the axes. A walk is
     stable when all are below 1.
 
@@ -286,9 +272,7 @@ def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) 
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 
-def multiplier_figure(
-    multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
-) -> Figure:
+def multiplier_figure(multipliers: Mapping[str, ArrayLike], published: ArrayLike | None) -> Figure:
     """Draw Floquet multipliers in the unit circle, and beside it their magnitudes in decreasing order: a walk
     is stable if all are inside.
 
@@ -314,7 +298,7 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
         spec = figure.add_gridspec(2, 4)
         draw = partial(over_time.error_over_time, walks=walks, push=push)
         # one row, (0,), of up to three panels: around the push, and behind each of its edges
-        (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
+        (around,), *edges = _around_and_edges(spec, (0,), [draw], first, push)
         for (axes,) in edges:  # the same scale in all three panels
             axes.set_ylim(around.get_ylim())
         # two panels in row 1 of the grid

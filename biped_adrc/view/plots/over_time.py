@@ -14,7 +14,7 @@ velocities and torques jump.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -47,9 +47,13 @@ def with_gaps(s: OverTime, y: Array) -> Array:
     return np.insert(y, np.flatnonzero(np.diff(s.step)) + 1, np.nan, axis=0)
 
 
-def line(axes: Axes, s: OverTime, y: Array, i: int, name: str) -> None:
-    """Draw y (K,) over time [s] in the i-th colour and dash, broken at impacts; name: in the legend."""
-    axes.plot(with_gaps(s, s.t), with_gaps(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
+def line(axes: Axes, s: OverTime, y: Array, i: int, name: str, **look: Any) -> None:
+    """Draw y (K,) over time [s] in the i-th colour and dash, broken at impacts; name: in the legend.
+
+    look: matplotlib's settings of a line, in place of that colour and dash.
+    """
+    look = {"color": PALETTE[i], "ls": DASHES[i % 4], **look}
+    axes.plot(with_gaps(s, s.t), with_gaps(s, y), label=name, **look)
 
 
 def curves(axes: Axes, s: OverTime, values: Array, symbol: str) -> None:
@@ -96,8 +100,7 @@ def joint_name(s: Signals, i: int) -> str:
     """Name of actuated joint i (from 0) in a legend: such as "$q_1$ stance hip" with four actuated joints,
     which are taken for those of a five-link biped; else the symbol alone.
     """
-    known = s.q_d.shape[1] == len(JOINTS)
-    return f"$q_{i + 1}$ {JOINTS[i]}" if known else f"$q_{i + 1}$"
+    return f"$q_{i + 1}$ {JOINTS[i]}" if s.q_d.shape[1] == len(JOINTS) else f"$q_{i + 1}$"
 
 
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
@@ -114,16 +117,14 @@ def joint_tracking(
 
     joints: indices from 0, all if None. push: (start, stop) [s], shaded. Returns the axes.
     """
-    joints, t = range(s.q_d.shape[1]) if joints is None else joints, with_gaps(s, s.t)
+    joints = range(s.q_d.shape[1]) if joints is None else joints
     for i in joints:
-        name, y = joint_name(s, i), with_gaps(s, s.q[:, i])
-        axes.plot(t, y, color=PALETTE[i], ls=DASHES[i % 2], lw=2.2, label=name)
+        line(axes, s, s.q[:, i], i, joint_name(s, i), ls=DASHES[i % 2], lw=2.2)
     for i in joints:
         # after a fall the error is NaN, and the reference is not drawn
         on_curve = np.where(np.isnan(s.error[:, i]), np.nan, s.q_d[:, i])
-        # matplotlib leaves "_" out of the legend
-        name, y = "references" if i == joints[0] else "_", with_gaps(s, on_curve)
-        axes.plot(t, y, color="black", ls=(0, (4, 3)), lw=0.8, label=name)
+        name = "references" if i == joints[0] else "_"  # matplotlib leaves "_" out of the legend
+        line(axes, s, on_curve, i, name, color="black", ls=(0, (4, 3)), lw=0.8)
     return finished(axes, "angle [rad]", push)
 
 
@@ -156,7 +157,7 @@ def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | Non
     (start, stop) [s], shaded. Returns the axes.
     """
     names = f"\\xi_{joint + 1}", f"\\hat{{\\xi}}_{joint + 1}"
-    _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], names, PALETTE[0])
+    _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], names, 0)
     return finished(axes, f"$\\xi_{joint + 1}$ [rad/s²]", push)
 
 
@@ -176,25 +177,23 @@ def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> A
     for joints in alike.values():
         i, names = joints[0], ", ".join(f"\\zeta_{j + 1}" for j in joints)
         estimate = f"\\hat{{\\zeta}}_{i + 1}"
-        _pair(axes, s, s.zeta[:, i], s.zeta_estimate[:, i], (names, estimate), PALETTE[i])
+        _pair(axes, s, s.zeta[:, i], s.zeta_estimate[:, i], (names, estimate), i)
     return finished(axes, r"torque $\zeta$ [N m]", push)
 
 
 def _pair(
-    axes: Axes, s: Signals, true: Array, estimate: Array, names: tuple[str, str], colour: str
+    axes: Axes, s: Signals, true: Array, estimate: Array, names: tuple[str, str], i: int
 ) -> None:
     """Draw a signal and its estimate, both (K,), over time. An estimate that is all NaN is that of a controller
     without an observer: the axes then say so.
 
-    names: symbols of both in TeX. colour: of the signal; the estimate is dashed in black.
+    names: symbols of both in TeX. i: number of the signal's colour; the estimate is dashed in black.
     """
-    t = with_gaps(s, s.t)
-    axes.plot(t, with_gaps(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
+    line(axes, s, true, i, f"${names[0]}$", ls="-", lw=2.4, alpha=0.6)
     if np.isnan(estimate).all():
         say_no_observer(axes)
-        return
-    y, dash = with_gaps(s, estimate), (0, (4, 2))
-    axes.plot(t, y, color="black", ls=dash, lw=1.0, label=f"${names[1]}$")
+    else:
+        line(axes, s, estimate, i, f"${names[1]}$", color="black", ls=(0, (4, 2)), lw=1.0)
 
 
 def say_no_observer(axes: Axes) -> None:
@@ -283,9 +282,7 @@ def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | Non
     below FLOOR are drawn there, as a logarithmic scale has no 0. Returns the axes.
     """
     for i, (name, s) in enumerate(walks.items()):
-        largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
-        x, y = with_gaps(s, s.t), with_gaps(s, largest)
-        axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
+        line(axes, s, np.maximum(np.max(np.abs(s.error), axis=1), FLOOR), i, name, lw=1.0)
     axes.set_yscale("log")
     return finished(axes, "largest tracking error [rad]", push)
 

@@ -99,18 +99,15 @@ def map_figure(
     width = 1.6 + columns * (1.0 + 0.3 * min(max(len(xs[1]), 5), 20))
     with new_figure(width, 0.8 + rows * (1.2 + 0.22 * min(max(len(ys[1]), 5), 20))) as figure:
         grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-        for k, axes in enumerate(grid.flat):
-            if k >= len(means):
-                axes.set_axis_off()
-                continue
-            m = means[k]
+        for axes in grid.flat[len(means) :]:
+            axes.set_axis_off()
+        for k, (axes, name, m) in enumerate(zip(grid.flat, shown, means, strict=False)):
             texts = [[f"{x:.2g}" if np.isfinite(x) else "" for x in row] for row in m]
             axes.set_facecolor("#DDDDDD")  # where there is no number
             image = _cells(axes, m, texts if m.size <= _WRITTEN else (), norm)
             _ticks(axes, xs[1], ys[1])
             below, left = k + columns >= len(means), k % columns == 0
-            words = literal(list(shown)[k])
-            label(axes, names[0] if below else "", names[1] if left else "", words)
+            label(axes, names[0] if below else "", names[1] if left else "", literal(name))
             axes.tick_params(labelbottom=below)
         figure.colorbar(image, ax=grid, label=title, shrink=0.9)
         return figure
