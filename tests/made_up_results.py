@@ -12,7 +12,7 @@ from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.ground import KnownLimits
 from biped_adrc.paper.pushes import MemberOutcome, MemberWalk, PushCell
-from biped_adrc.paper.runs import Order, Runs, Start
+from biped_adrc.paper.runs import Order, Runs, SlowStart
 from biped_adrc.paper.scenarios import (
     CONTROLLERS,
     MapPush,
@@ -125,8 +125,8 @@ def results(**odd):
         "pushed_recipe": {"identified": [member(of=on_the_recipe("identified"))]},
         "starts": {
             "identified": [
-                Start(0.58, 0.97, walked),
-                Start(0.58, 1.03, {c: outcome(c) for c in CONTROLLERS}),
+                SlowStart(0.58, 0.97, walked),
+                SlowStart(0.58, 1.03, {c: outcome(c) for c in CONTROLLERS}),
             ]
         },
         "jumps": {

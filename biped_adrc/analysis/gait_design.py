@@ -34,7 +34,7 @@ from biped_adrc.model.ground import ENDS, WINDOW, KnownLimits, Limits
 
 RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""
-SHORT = 1e-3
+SHORTFALL = 1e-3
 """Share [1] by which H may fall short of the height that is asked for."""
 _STEPS = 2
 """Steps of the walk that proves a gait."""
@@ -199,7 +199,7 @@ def _certify_rough(biped: Biped, gait: Gait, request: GaitRequest) -> RoughGroun
     # an impulse that the request allows more friction does not count
     free = (IMPULSE,) if limits.impulse_friction > limits.friction else ()
     H, cause = rough.reach(but=free)
-    if not (1.0 - SHORT) * limits.rough <= H:
+    if not (1.0 - SHORTFALL) * limits.rough <= H:
         raise GaitError(
             f"no gait with {request.in_words()} was found; the largest height found is {1e3 * H:.1f} mm, where "
             f"the limit '{cause}' stops it: ask for less height, or a slower or shorter step"

@@ -37,7 +37,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell
-from biped_adrc.paper.runs import Runs, Start
+from biped_adrc.paper.runs import Runs, SlowStart
 from biped_adrc.paper.scenarios import CONTROLLERS, HEAVIER, declared
 from biped_adrc.scenario.recording import Outcome
 
@@ -254,7 +254,7 @@ def longest(o: MemberOutcome) -> AtTwoSteps:
     return AtTwoSteps(*map(max, zip(*(w.longest for w in o.walked.values()), strict=True)))
 
 
-def reached(start: Start) -> AtTwoSteps:
+def reached(start: SlowStart) -> AtTwoSteps:
     """Share [1] of the impacts asked for that are made, under the controller that makes more of them."""
     # zip: the shares of both at the integration step used, then those at half of it
     return AtTwoSteps(*map(max, zip(*map(made, start.outcomes.values()), strict=True)))
@@ -426,7 +426,7 @@ def cost_ratio(pair: tuple[Outcome, Outcome]) -> AtTwoSteps:
     return one.over(other)
 
 
-def below_least(r: Runs) -> dict[str, Start]:
+def below_least(r: Runs) -> dict[str, SlowStart]:
     """The starts with less than the least speed that reaches the next impact, by preset and by their speed
     after the impact as a share of the gait's. factor: speed over the least one.
     """

@@ -133,7 +133,7 @@ def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
         return str(error)
 
 
-class Start(NamedTuple):
+class SlowStart(NamedTuple):
     """A walk that starts on the constraint with a chosen speed after the impact."""
 
     least: float
@@ -145,7 +145,7 @@ class Start(NamedTuple):
     """By controller."""
 
 
-def starts(preset: str) -> list[Start]:
+def starts(preset: str) -> list[SlowStart]:
     """Walks of both controllers from just below and just above the least speed that reaches the next impact.
 
     No controller of the joints helps a start below it, which matters for the paper's word "global stability".
@@ -153,7 +153,7 @@ def starts(preset: str) -> list[Start]:
     least, result = least_speed(preset), []
     for k in scenarios.declared()["basin"]["factors"]:
         runs = {c: scenarios.starting(c, preset, k * least) for c in scenarios.CONTROLLERS}
-        result.append(Start(least, k, {c: execute_twice(run) for c, run in runs.items()}))
+        result.append(SlowStart(least, k, {c: execute_twice(run) for c, run in runs.items()}))
     return result
 
 
@@ -316,7 +316,7 @@ class Runs:
     """Walking cycles with all multipliers, by controller (and reset policy)."""
     cycles: Mapping[str, PoincareResult | str] = field(default_factory=dict)
     """Walking cycles by gait, preset, controller and Theta'', or why there is none."""
-    starts: Mapping[str, list[Start]] = field(default_factory=dict)
+    starts: Mapping[str, list[SlowStart]] = field(default_factory=dict)
     """Walks around the least speed, by preset."""
     jumps: Mapping[str, dict[str, float]] = field(default_factory=dict)
     """Jumps of signals, by preset; see `jumps`."""

@@ -30,7 +30,7 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
-from biped_adrc.studies.proposals import Round, WalkAll, optuna_library, searched, together
+from biped_adrc.studies.proposals import Round, WalkAll, last_rounds, optuna_library, searched
 from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Runner, StudyProgress
@@ -100,7 +100,7 @@ def study(
         cases = enumerate(study_.cases or ("",))
         searches = {name: walker.search_of(name, study_.search.seed + i) for i, name in cases}
         # for each case a Choice, or a text that says why there is none
-        result = {name: walker.choice(name, x) for name, x in together(searches).items()}
+        result = {name: walker.choice(name, x) for name, x in last_rounds(searches).items()}
         choices = {name: x for name, x in result.items() if isinstance(x, Choice)}
         failures = tuple(x for x in result.values() if isinstance(x, str))
         if not choices:

@@ -13,7 +13,7 @@ A search goes round by round, each of as many candidates as all before it. After
 value stands at an end of its range (`Span.beyond`) has that end moved by the width of the range, so that only
 limits and the objective stop a search. Which of them does is asked of settings beside the chosen one
 (`Search.stop`). All cases of a study go on while a round of one of them still moves something, so that each has
-as many candidates for a variable as the others (`together`).
+as many candidates for a variable as the others (`last_rounds`).
 """
 
 import itertools
@@ -96,7 +96,7 @@ def searched(
             break
 
 
-def together(searches: Mapping[str, Iterator[Round]]) -> dict[str, Round]:
+def last_rounds(searches: Mapping[str, Iterator[Round]]) -> dict[str, Round]:
     """The last rounds of several searches, which go on while a round of one of them moves something."""
     last = {name: next(rounds) for name, rounds in searches.items()}
     while not all(x.still for x in last.values()):

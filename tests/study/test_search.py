@@ -21,7 +21,7 @@ from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
 from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.measure import Aim, Limit, numbers_without_walk
-from biped_adrc.studies.proposals import searched, together
+from biped_adrc.studies.proposals import last_rounds, searched
 from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.study import read_study
 from tests.commands import command
@@ -36,7 +36,7 @@ def walked(asked):
 
 def last(search, base):
     """The last round of a search alone."""
-    return together({"": searched(search, base, walked, lambda c: None)})[""]
+    return last_rounds({"": searched(search, base, walked, lambda c: None)})[""]
 
 
 def found_by(**search):
@@ -109,7 +109,7 @@ def test_all_cases_go_on_while_one_gains():
     cases = {"wide": study.search, "narrow": read_study(narrow).search}
     alone = {name: len(last(s, study.base).candidates) for name, s in cases.items()}
     rounds = {n: searched(s, study.base, walked, lambda c: None) for n, s in cases.items()}
-    counts = {name: len(x.candidates) for name, x in together(rounds).items()}
+    counts = {name: len(x.candidates) for name, x in last_rounds(rounds).items()}
     assert alone["wide"] < alone["narrow"]
     assert counts["wide"] == counts["narrow"] >= alone["narrow"]
 
@@ -269,7 +269,7 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     # walks(x): a walk that ended well, with the objective x
     walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
     search = search.model_copy(update={"budget": 8, "generation": 5, "walks": search.walks})
-    found = together({"": searched(search, {}, walk, lambda c: None)})[""].candidates
+    found = last_rounds({"": searched(search, {}, walk, lambda c: None)})[""].candidates
     assert len(found) == 32
     # [0] is the case itself, for which nothing was chosen
     assert {type(c.chosen[order]) for c in found[1:]} == {int}

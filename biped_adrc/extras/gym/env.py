@@ -34,7 +34,7 @@ from PIL import Image, ImageDraw
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array, Flags, frozen
 from biped_adrc.extras.gym.stage import LearnerTask, Stage
-from biped_adrc.scenario.scenario import MOST_SEED
+from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.view.colours import TRUNK
 from biped_adrc.view.from_the_side.moving_parts import COLOURS
@@ -82,10 +82,16 @@ class WalkEnv(gymnasium.Env[Any, Any]):
 
     metadata = PICTURES
 
-    def __init__(self, render_mode: str | None = None, **values: Any):
+    def __init__(
+        self,
+        scenario: Scenario | None = None,
+        condition: str | None = None,
+        render_mode: str | None = None,
+        **values: Any,
+    ):
         """Make the walk, which `reset` begins, and Gymnasium's spaces; arguments as in the class."""
-        self.render_mode = render_mode
-        self.stage = Stage(LearnerTask.of(**values), 1, render_mode is not None)  # of one walk
+        task, self.render_mode = LearnerTask.of(scenario, condition, **values), render_mode
+        self.stage = Stage(task, 1, render_mode is not None)  # of one walk
         self.observation_space, self.action_space = spaces_of(self.stage)
         self.picture = Picture(self.stage) if render_mode else None
 
@@ -136,11 +142,19 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
 
     metadata = PICTURES | {"autoreset_mode": AutoresetMode.NEXT_STEP}
 
-    def __init__(self, num_envs: int = 1, render_mode: str | None = None, **values: Any):
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scenario: Scenario | None = None,
+        condition: str | None = None,
+        render_mode: str | None = None,
+        **values: Any,
+    ):
         """Make the walks, which `reset` begins, and Gymnasium's spaces; arguments as in the class."""
         check_count(num_envs, f"num_envs is {num_envs}")
         self.num_envs, self.render_mode = num_envs, render_mode
-        self.stage = Stage(LearnerTask.of(**values), num_envs, render_mode is not None)
+        task = LearnerTask.of(scenario, condition, **values)
+        self.stage = Stage(task, num_envs, render_mode is not None)
         self.single_observation_space, self.single_action_space = spaces_of(self.stage)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)

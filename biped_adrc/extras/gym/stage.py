@@ -99,9 +99,7 @@ class LearnerTask(Checked, Shown):
             )
 
     @classmethod
-    def of(
-        cls, scenario: Scenario | None = None, condition: str | None = None, **values: Any
-    ) -> Self:
+    def of(cls, scenario: Scenario | None, condition: str | None, **values: Any) -> Self:
         """Make the task of a scenario, or of a condition by name, "nothing" if both are None.
 
         A condition has the fields of `BASE` and of its own in conditions.toml. values: further fields of task

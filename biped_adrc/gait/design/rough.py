@@ -54,7 +54,7 @@ class Half(NamedTuple):
         return A + (B - A) * ca.repmat(self.squared_rate(y_0), A.shape[0], 1)
 
 
-class Landing(NamedTuple):
+class RoughLanding(NamedTuple):
     """The second half of a step, its landing on one height, and the first half of the next step."""
 
     second: Half
@@ -151,7 +151,7 @@ class RoughSteps:
             done = W[-1]
         return Half(still, moving, ca.horzcat(*W))
 
-    def landing(self, *ends: ca.MX | float) -> Landing:
+    def landing(self, *ends: ca.MX | float) -> RoughLanding:
         """The landing at the last of the phases `ends`, with the halves before and after it."""
         k, n, p, x = self.k, self.k.n, self.k.p, self.k.x
         _, at = self.model(self.straight, ca.MX(ends[-1]))
@@ -172,7 +172,7 @@ class RoughSteps:
         delta2 = (k.sigma(q, v) / k.sigma(at.q, dq)) ** 2
         second, first = self.half(self.straight, MIDDLE, *ends), self.half(bend, start, MIDDLE)
         impulse, down = k.direction * jump[n + 2 :], k.direction * (J_2 @ dq)[1]
-        return Landing(second, first, foot[1], down, impulse, delta2, start)
+        return RoughLanding(second, first, foot[1], down, impulse, delta2, start)
 
     def rows(self) -> Iterator[Bounded]:
         """Rows of the programme: the landings, and the limits of both steps at all y*."""
