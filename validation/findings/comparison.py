@@ -96,7 +96,7 @@ def soft_tables(rows: list[dict[str, str]]) -> dict[str, Any]:
     """
     best = [r for r in best_of(rows) if r["gait"] == "rough"]
     tables = tables_of("rabbit", "tracking", best)
-    ground = {"ground": {"plant": "mujoco", "time_constant": 0.005}, "run": {"impacts": 4}}
+    ground = {"ground": {"plant": "mujoco", "time_constant": 0.005}}
     known = tables["conditions"]
     return tables | {
         "name": "comparison on MuJoCo's ground",
