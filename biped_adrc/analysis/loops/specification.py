@@ -162,7 +162,7 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     lag = 0.0 if walker.motors is None else walker.motors.lag
     # tick: the linearised sample instant. The new axis is that of the robots, for which the tick is the same
     tick = tick_matrices(twin, gait.points)
-    tick = tick._make(x[:, np.newaxis] for x in tick)
+    tick = type(tick)._make(x[:, np.newaxis] for x in tick)
     # of each point its A (robots, 2 n, 2 n) and B (robots, 2 n, p), (q, q')' = A (q, q') + B u
     A, B = (np.array([getattr(at, name) for at in gait.points]) for name in "AB")
     loops = WalkerLoops(tick, A, B, T, delay, lag, slow)
