@@ -151,7 +151,7 @@ def _limits(k: SymbolicStep) -> list[Bounded]:
     speed = np.sqrt(k.gravity * k.leg)  # unit of speeds
     node, s = k.everywhere, k.places
     F_T, F_N = k.along @ node.force / weight, k.out @ node.force / weight
-    # the impulse at Theta'- = 1 has the sign of Theta'
+    # rate: Theta' before impact [rad/s], with its sign; impulse and speeds are those at Theta'- = 1 times it
     rate = k.direction * x.rate
     P_T, P_N = (rate * (row @ x.impulse) / (k.mass * speed) for row in (k.along, k.out))
     # speeds out of the ground: of the swing foot before the impact, of the old stance foot after it

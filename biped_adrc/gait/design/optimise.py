@@ -354,6 +354,7 @@ def _bounds(
     # rate, rates: |Theta'| just before the impact and at the nodes; alpha: coefficients; q, slope: q- and
     # dq_b/dTheta just before the impact
     free = Unknowns[Array](*(np.full(part.shape, np.inf) for part in unknowns))
+    # one, each: ones in the shapes of an unknown that is one number, and of one for each node
     one, each = np.ones(1), np.ones(request.nodes)
     peak = (1.0 - limits.reserve) * one
     least = 0.0 * one if request.objective is Objective.PEAK else peak
