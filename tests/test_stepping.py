@@ -221,7 +221,7 @@ def test_a_run_goes_on_where_another_ended():
 def test_plants_that_break_the_contract_are_refused():
     """Continuous time and a motor's lag are no matter of such a plant; an index beyond its joints, a stop
     half way without a contact and a start elsewhere are mistakes of the class, which is named."""
-    with pytest.raises(InputError, match="controlled at ticks, found ContinuousTime"):
+    with pytest.raises(InputError, match=r"^Ball, as a plant .* is controlled at ticks"):
         loop(timing=ba.ContinuousTime())
     with pytest.raises(InputError, match="put the lag into the plant"):
         loop(motors=Motors(lag=1e-3))

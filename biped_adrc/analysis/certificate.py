@@ -156,7 +156,7 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
     if name == "normal_force":
         return x > 0.0
     cone = (1.0 + ROUND_OFF) * k.friction
-    # the largest number that is within; SLIP: largest distance that a foot may slip
+    # most: the largest number that is within the limits, 0 of a kind that is not here; SLIP [m]: largest slip
     most = {"friction": cone, "torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
     fine = x <= most.get(name, 0.0)
     return fine | (x == math.inf) if name == "friction" else fine

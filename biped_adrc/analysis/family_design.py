@@ -51,7 +51,7 @@ CURVE_DEGREE, STEP_DEGREE, CYCLE_DEGREE = 4, 4, 6
 OF_LIBRARY = ("method", "curves", "minimised", "limits")
 """Entries of a gait's provenance that are the same for all gaits of the library."""
 _SAMPLES, _GRID = 1200, 11
-"""Number of random steps to which `StepMap` is fitted, and of speeds and lengths of cycles, of equal weight."""
+"""Random steps, and speeds and lengths of periodic walks, to which `StepMap` is fitted; both count the same."""
 _NODES = 16
 """Number of Gauss nodes of each part of a step, before and after the decision (`control.footstep`)."""
 _HALVED = 8
@@ -146,7 +146,7 @@ def design_family(
     # _member: v and L with the friction, peak torque and least F_N of the periodic step
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
-    # a row of `pairs` is a random pair of steps, the argument of `TwoSteps.of`: speed v and length L of the
+    # a row of `pairs` is a random pair of steps, as `TwoSteps.of` takes it: speed v and length L of the
     # member at the impact between them, length `before` of the step before both, speed `end` and length
     # `ahead` of the member that ends the second step; low and high are ends of the ranges (speed, length)
     # _SAMPLES random steps, and those of the periodic walks, which decide on the speed that is held
@@ -164,8 +164,8 @@ def design_family(
     to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
     _, L, speed, y = np.transpose(cycles)
     of_cycle = PolynomialMap.fit(np.column_stack((speed, L)), y[:, np.newaxis], CYCLE_DEGREE)
-    steps_of = StepMap(to_impact, to_decision, of_cycle, step_ends(biped, family, cycles))
-    return replace(family, steps=steps_of, members=members)
+    step_map = StepMap(to_impact, to_decision, of_cycle, step_ends(biped, family, cycles))
+    return replace(family, steps=step_map, members=members)
 
 
 def _cycle(biped: Biped, family: GaitFamily, v: float, L: float) -> tuple[float, ...]:
@@ -198,7 +198,7 @@ class TwoSteps:
 
     @classmethod
     def of(cls, biped: Biped, family: GaitFamily, pair: Sequence[float]) -> Self:
-        """Compute both; pair: v, before, L, end, ahead of the class."""
+        """Compute both; pair (5,): v [m/s], before [m], L [m], end [m/s], ahead [m], as the class has them."""
         v, before, L, end, ahead = pair
         c, p, mu = family.phase, biped.p, np.array((v, L))
         # plus, minus: Theta at the start and end of the first step; the step before it ended on `earlier`.
@@ -219,8 +219,8 @@ class TwoSteps:
         curve = StepCurve(family, v, end, ahead, start, reset)
         decision = start + DECISION * (family.curve(np.array((v, ahead)))[2] - start)
         over = family.curve(np.array((end, ahead)))[2]
-        ends = (start, decision), (decision, over)
-        parts = (VirtualConstraint(earlier.curve, c, *pair) for pair in ends)
+        ends = (start, decision), (decision, over)  # Theta at the start and end of each part
+        parts = (VirtualConstraint(earlier.curve, c, *plus_minus) for plus_minus in ends)
         first, last = (ZeroDynamics.of(biped, part, _NODES, curve) for part in parts)
         return cls(delta**2, slope, first, last)
 

@@ -119,7 +119,8 @@ class RoughGround(Shown):
         H = np.abs(self._outward(self.map.heights, way)[0])
         # a map that ends before its usual heights has no landing on the next one
         end = {LEG if len(H) > SIDE else LANDING: float(H[-1])}
-        # margins fall with H: where they come to 0; infinite for none
+        # margins x fall with H, so -x rises: the H at which it is 0; infinite where it stays below, and 0 where
+        # it is above from H = 0 on
         return {n: float(np.interp(0.0, -x, H, right=np.inf)) for n, x in margins.items()} | end
 
     def reach(self, way: str = "both", but: Collection[str] = ()) -> Reach:

@@ -21,7 +21,7 @@ CONFIDENCE = 0.95
 
 
 class Interval(NamedTuple):
-    """A point estimate with its 95 % confidence interval; NaN where there are too few walks for one."""
+    """A point estimate with its 95 % confidence interval; NaN ends where there is none, as of too few walks."""
 
     value: float
     low: float = math.nan

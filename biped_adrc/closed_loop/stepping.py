@@ -61,8 +61,8 @@ class SteppingLoop(ClosedLoop[Any]):
         """Raise InputError for what does not fit; see the class."""
         if not isinstance(self.timing, SampledTime):
             raise InputError(
-                f"a plant that moves by itself is controlled at ticks, found {type(self.timing).__name__}; "
-                "give timing=SampledTime(1e-3), or period = 0.001 in a scenario"
+                f"{type(self.plant).__name__}, as a plant that moves by itself, is controlled at ticks, found "
+                f"{type(self.timing).__name__}; give timing=SampledTime(1e-3), or period = 0.001 in a scenario"
             )
         if not isinstance(self.plant, SteppingPlant) or self.model is None:
             raise InputError(

@@ -4,6 +4,8 @@ For matrices of a few rows `numpy.linalg.solve` spends most of its time on check
 with partial pivoting) is called without them. Control laws call `solve` and `solve_positive` by name: the
 tracer, which turns laws into machine code, knows them and generates unrolled code in their place.
 
+`sorted_eigenvalues` is NumPy's `eigvals`, in order.
+
 SciPy's module of LAPACK is loaded alone, as the package around it takes a third of the time of a short walk.
 """
 

@@ -332,8 +332,8 @@ def matvec_function(k: int, p: int) -> SymbolicFunction:
 
 
 def method_function(part: Any, method: str, inputs: Layout) -> SymbolicFunction:
-    """The function of arguments of this layout that a method of a part is; its result is an array or a tuple of
-    arrays. Raises NotCompiled for one that cannot be traced.
+    """The method of a part as a function of arguments that have the layout `inputs`, joined to one vector; the
+    method gives an array or a tuple of arrays. Raises NotCompiled for one that cannot be traced.
     """
     # symbols: the part with symbols in place of its numbers
     (K, symbols), inp = symbols_of(part), Vector("inp", inputs.size)

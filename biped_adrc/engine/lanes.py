@@ -82,9 +82,9 @@ class Lanes:
         key, laws = ("lanes", program.key, *more), dict.fromkeys(("pushes", "look"), 0)
         names = ("slope", "step", *(["tick"] if program.numbers.held else []))
         text = partial(on_symbols, "stretch", "stretch_text", program.equations, *more)
-        code = generated_text(key, names, text).addresses
+        addresses = generated_text(key, names, text).addresses
         # by the fields of one walk's functions in a run
-        laws |= zip(("flow", "events", "tick"), map(code.__getitem__, names), strict=False)
+        laws |= zip(("flow", "events", "tick"), map(addresses.__getitem__, names), strict=False)
         if terms:
             n = program.numbers.plant.n
             push = "push", structure(terms), n, lanes

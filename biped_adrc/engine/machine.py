@@ -86,7 +86,9 @@ def _target() -> binding.TargetMachine:
     """
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    return binding.Target.from_default_triple().create_target_machine(*_host(), opt=3, jit=True)
+    cpu, features = _host()
+    target = binding.Target.from_default_triple()
+    return target.create_target_machine(cpu=cpu, features=features, opt=3, jit=True)
 
 
 def parsed(text: str, machine: binding.TargetMachine) -> binding.ModuleRef:

@@ -43,8 +43,10 @@ class _Block(Listing):
 
     def __init__(self, equations: Equations, moving: int, lags: int, lanes: int):
         super().__init__("v", lanes)
-        plant, self.nx, self.moving, self.lags = equations.numbers.plant, equations.nx, moving, lags
-        self.n, self.p, self.pushes, self.good = plant.n, plant.p, 0, list[str]()
+        plant, self.nx = equations.numbers.plant, equations.nx
+        self.n, self.p, self.moving, self.lags = plant.n, plant.p, moving, lags
+        # pushes: calls of the disturbance so far; good: conditions (i1) on which a walk keeps its mark
+        self.pushes, self.good = 0, list[str]()
         self.rows: list[int] = at.block_rows(self.n, self.nx).tolist()
         self.t, self.step, self.start = (self.row(i) for i in range(3))
         # the two cells behind the rows: addresses of the compiled disturbance and of its numbers

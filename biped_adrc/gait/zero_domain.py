@@ -96,16 +96,26 @@ def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
     upper = Bound(math.inf, UNLIMITED, math.nan)
     # sign 1: the lower bound of zeta by a limit, sign -1: the upper one; the strictest of all limits stay
     for margin in _margins(orbits, DomainLimits() if limits is None else limits):
-        lower = max(lower, _end(orbits, *margin, 1.0), key=lambda bound: bound.zeta)
-        upper = min(upper, _end(orbits, *margin, -1.0), key=lambda bound: bound.zeta)
+        lower = max(lower, _end(orbits, margin, 1.0), key=lambda bound: bound.zeta)
+        upper = min(upper, _end(orbits, margin, -1.0), key=lambda bound: bound.zeta)
     return Domain(lower, upper)
 
 
-def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[tuple[str, Array, Array]]:
-    """All limits as conditions still + moving Theta'^2 > 0 on the distance to the limit, a force [N] or a
-    torque [N m]: name of the limit, as in `Bound.cause`, the distance at rest (K,), and its change with
-    Theta'^2 (K,), per rad^2/s^2, at the K Gauss nodes of the zero dynamics; one for each sign where a limit has
-    two.
+class Margin(NamedTuple):
+    """One limit as the condition still + moving Theta'^2 > 0 on the distance to it, a force [N] or a torque
+    [N m], at the K Gauss nodes of the zero dynamics.
+
+    cause: name of the limit, as in `Bound.cause`. still: distance at rest (K,). moving: its change with
+    Theta'^2 (K,), per rad^2/s^2.
+    """
+
+    cause: str
+    still: Array
+    moving: Array
+
+
+def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
+    """All limits as margins, one for each sign where a limit has two.
 
     At one Theta forces and torques are affine in Theta'^2, so the model at two rates, 0 and 1 rad/s, gives them
     at all speeds.
@@ -120,24 +130,23 @@ def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[tuple[str, Array,
     rows = [("lift-off", across)]
     if limits.friction is not None:
         rows += [("friction", limits.friction * across + sign * along) for sign in (-1.0, 1.0)]
-    result = [(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
+    result = [Margin(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
     if limits.torque is not None:
         for j in range(zero.biped.p):
             for sign in (-1.0, 1.0):
                 still = limits.torque + sign * u_0[:, j]
-                result.append(("torque", still, sign * (u_1 - u_0)[:, j]))
+                result.append(Margin("torque", still, sign * (u_1 - u_0)[:, j]))
     return result
 
 
-def _end(orbits: ZeroOrbits, cause: str, at_rest: Array, change: Array, sign: float) -> Bound:
-    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin, at_rest + change Theta'^2 > 0: of all
+def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
+    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin, still + moving Theta'^2 > 0: of all
     Theta of a step the strictest zeta = -A / B at which A + B zeta = 0.
 
-    cause, at_rest, change: of `_margins`. The bound is -inf (lower) or inf (upper) where the margin limits zeta
-    nowhere from this side.
+    The bound is -inf (lower) or inf (upper) where the margin limits zeta nowhere from this side.
     """
     # as functions of Theta, by Legendre series through the values at the nodes
-    still, moving = series(orbits.zero, at_rest), series(orbits.zero, change)
+    still, moving = series(orbits.zero, margin.still), series(orbits.zero, margin.moving)
 
     def reach(theta: Array) -> Array:
         """sign * zeta at which the margin is 0, at each theta; -inf where the margin does not limit this end,
@@ -163,4 +172,4 @@ def _end(orbits: ZeroOrbits, cause: str, at_rest: Array, change: Array, sign: fl
         )
         if -best.fun > most:
             where, most = float(best.x), -float(best.fun)
-    return Bound(sign * most, cause, where)
+    return Bound(sign * most, margin.cause, where)

@@ -89,8 +89,9 @@ class ModelErrors(Checked, Shown):
         """A copy of `biped` with these errors, the plant. Raises ModelError for an unknown body or joint, for a
         joint without friction, twin joints that have not the same error, or legs that become unequal.
         """
+        # errors, factors: of bodies by name, for each of these three
         errors = {"mass": self.mass, "com": self.com, "inertia": self.inertia}
-        factors = {k: {x: 1.0 + e for x, e in each.items()} for k, each in errors.items()}
+        factors = {k: {x: 1.0 + e for x, e in of.items()} for k, of in errors.items()}
         tree, d = biped.scaled(factors), biped.description
         # pairs: the joints with friction, twins together, a joint without a twin alone
         pairs = list(_rubbing(biped))

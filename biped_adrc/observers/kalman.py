@@ -82,9 +82,8 @@ class KalmanObserver(InjectedChain):
         """
         k, T = self.order, period
         R = self.measurement / T
-        # Q of the module for W = T = 1: in states scaled by powers of T it is that of the filter but for the
-        # factor W T^(2 k - 1)
-        left = range(k - 1, -1, -1)  # k - i and k - j
+        # rows: Q of the module for W = T = 1; in states scaled by powers of T, Q is W T^(2 k - 1) times these
+        left = range(k - 1, -1, -1)  # k - i and k - j of the module, for i, j = 1 .. k
         rows = [[1.0 / (factorial(a) * factorial(b) * (a + b + 1)) for b in left] for a in left]
         Q = np.array(rows) * self.intensity * T ** (2 * k - 1) / R
         # C = (1, 0, ..) measures the first state, and in units of R / T its noise has the variance 1

@@ -15,8 +15,8 @@ command `reproduce` calls this; its exit code says whether all checks hold.
     multipliers      eigenvalues of the derivative of the return map, from impact to impact, at a periodic walk
     Outcome          the numbers of one walk; `half` is the same walk at half of the integration step
 
-Drawing takes longer than some of the walks, so each figure is a `Task`, drawn by one of several processes. What
-draws is in `view`.
+Drawing takes longer than some of the walks, so each figure is a `Task`, drawn by one of several processes. The
+drawing itself is in `view`; here is which signals each figure gets.
 
 In summary.json: `holds` and `checks` (what is asserted), `tally` and `claims` (what became of the paper's
 claims), `findings` and `tables` (what the report shows), `settings` and `versions`, and the wall time of each
@@ -83,11 +83,11 @@ def reproduce(
     walks = {c: rebuilt_walk(head.outcome.run, head.trajectory) for c, head in r.headline.items()}
     for c, walk in walks.items():
         walk.save(out / f"walk-{c.lower()}.npz")
-    pictures = draw_all(r, walks, out, workers)
+    drawn = draw_all(r, walks, out, workers)
     animation = headline_animation(walks)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
-    write_text(out / "report.html", report_html(summary, pictures, animation))
+    write_text(out / "report.html", report_html(summary, drawn, animation))
     write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
     return summary
 

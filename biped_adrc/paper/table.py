@@ -199,6 +199,7 @@ def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
     values = {"limit": bound, "found": metrics.Extremes.of(case.figure for case in of_claim)}
     # more numbers for the texts, by name, from the function that the table names
     values |= _function(said["values"])(r) if "values" in said else {}
+    # names: the texts of the table that have places for these values; share: of the cases that are kept
     names = ("claim", "number", "reason", "finding")
     share = sum(c.kept for c in of_claim) / max(len(of_claim), 1)
     return Claim(

@@ -50,7 +50,7 @@ from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
 """Name of a walker's own plant: the stance foot is pinned, impacts are plastic and take no time."""
-# walks of a study share these, so that they are compared by identity
+# makers of clocks and motors: walks of a study share equal ones, so that they are compared by identity
 _clock, _motors = lru_cache(maxsize=64)(SampledTime), lru_cache(maxsize=64)(Motors)
 
 
@@ -175,25 +175,24 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     gait = scene.walked
     key = s.errors.model_dump_json(), drawn(s, "model")
     plant = scene.plants.found(key, lambda: plant_of(s, biped))
-    width, hardware = s.errors.impact_width, s.hardware
+    width, h = s.errors.impact_width, s.hardware
     # relative errors (n,) [1] of the rates after impact; () without an error of the impact map
     gain = impact_error(drawn(s, "impact"), width, biped.n).tolist() if width else ()
     course = stones(s)
     # a clock restarts at impact only if the controller knows the impact at once, without a detector
-    clock = hardware.touchdown.name is None, hardware.delay, hardware.delay_known
-    period, motors = hardware.period, (hardware.rate_limit, hardware.lag)
+    period, restart = h.period, h.touchdown.name is None
     return Walker(
         plant,
         scene.controller(s, course.lengths if course else ()),
         disturbances(s, biped, gait.period, plant),
-        ContinuousTime() if period is None else _clock(period, *clock),
+        _clock(period, restart, h.delay, h.delay_known) if period is not None else ContinuousTime(),
         model=None if plant is biped else biped,
-        torque_limit=hardware.torque_limit,
+        torque_limit=h.torque_limit,
         max_step_time=s.run.max_step_time,
         slope=scene.slope(s),
         ground_steps=_ground(s),
         sensors=sensors(s),
-        motors=_motors(*motors) if any(motors) else None,
+        motors=_motors(h.rate_limit, h.lag) if h.rate_limit or h.lag else None,
         touchdown=_touchdown(s, gait),
         impact_gain=tuple(gain),
         stones=course,

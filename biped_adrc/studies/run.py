@@ -172,8 +172,8 @@ def _counts(t: Trial, walked: BatchWalk, aside: bool) -> WalkRow:
     plant = walker.plant
     n = None if walked.table is None else Nodes(walked.table, plant.n, plant.p)
     # NO_WALK: statuses of what was no walk
-    row: WalkRow = {x: getattr(walked, x) for x in ("detail", "impacts", "t_end", "engine")}
-    row |= {"status": status, **_pace(t, walked, n)}
+    row: WalkRow = {"status": status, "detail": walked.detail, "impacts": walked.impacts}
+    row |= {"t_end": walked.t_end, "engine": walked.engine, **_pace(t, walked, n)}
     if status not in NO_WALK:
         row["survived"] = int(walked.status is Status.COMPLETED)
         # until `counted` has looked at the nodes: not feasible, as if all limits, named in REASONS, were broken

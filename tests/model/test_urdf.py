@@ -128,6 +128,7 @@ def test_wrong_states_links_and_joints_are_refused_in_words_of_the_robot(biped):
         ('urdf = "floating.urdf"', 'urdf = "/proc/version"', "in its own folder or below"),
         ('urdf = "floating.urdf"', 'urdf = "linked.urdf"', "in its own folder or below"),
         ('"left_knee", "right_knee"]', '"left_knee", "left_knee"]', "a list of different names"),
+        ('"right_knee"]', '"right_knee", "left_hip"]', "the joints are .* different names"),
         ('["left_thigh", "right_thigh"]', '["left_thigh", "thigh"]', r"\['thigh'\] in its links"),
         ('torso = ["torso"]', "torso = []", "links.torso.*at least 1"),
         ('"left_shin", "right_shin"', '"left_shin", "left_thigh"', "the links are"),

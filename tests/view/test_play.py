@@ -595,8 +595,7 @@ def test_a_page_says_that_its_motors_have_no_torque_limit(
     machine code, which other tests run, and its tour, which would be three walks more, are left out.
     """
     said = "motors without a torque limit"
-    monkeypatch.setattr("biped_adrc.extras.play.webassembly._linked", lambda *_: b"")
-    monkeypatch.setattr("biped_adrc.extras.play.webassembly.store", lambda *_: None)
+    monkeypatch.setattr("biped_adrc.extras.play.webassembly.from_disk", lambda *_: b"")
     monkeypatch.setattr("biped_adrc.extras.play.page.guided", lambda *_: [])
     unlimited = ba.Scenario(controller="NPD", hardware={"period": 1e-3})
     assert said in page(unlimited, {}, samples=0)

@@ -15,8 +15,8 @@ with sigma_a from the sampled loop. The part of the encoders' error that enters 
 rates of the reference, which no observer filters, is not included; `analysis.loops` has it.
 
 An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if the
-torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report` calls
-`recommend` for its last table.
+torque noise ("ripple") of one count stays below a share of the torque limit. `OnHardware.recommended` has the
+largest bandwidth for each m; `observer_report` shows it in its last table.
 """
 
 import math

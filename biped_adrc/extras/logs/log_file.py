@@ -131,6 +131,7 @@ def relabel_legs(
 def _check_pairs(measured: Flags, biped: Biped) -> None:
     """Raise InputError where the rate of a joint is measured on one leg and not on the other; measured (n,)."""
     # R (n, n), q+ = R q-, exchanges the names of the legs: it has an entry i, j where v_j becomes v_i
+    # [:1]: the first pair is reported; + 1: joints are counted from 1
     for i, j in np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured)[:1] + 1:
         raise InputError(
             f"the log has v{i} and not v{j}, of which it is made when the legs are exchanged; expected both, "

@@ -151,7 +151,7 @@ def _limits(k: SymbolicStep) -> list[Bounded]:
     speed = np.sqrt(k.gravity * k.leg)  # unit of speeds
     node, s = k.everywhere, k.places
     F_T, F_N = k.along @ node.force / weight, k.out @ node.force / weight
-    # the impulse at Theta'- = 1 has the sign of Theta'
+    # rate: Theta' before impact [rad/s], with its sign; impulse and speeds are those at Theta'- = 1 times it
     rate = k.direction * x.rate
     P_T, P_N = (rate * (row @ x.impulse) / (k.mass * speed) for row in (k.along, k.out))
     # speeds out of the ground: of the swing foot before the impact, of the old stance foot after it
@@ -286,13 +286,15 @@ def relaxed(
 
     Each name of a limit has one slack, so that all rows of that name give way together; the small share of the
     objective keeps the solution unique. The equations of the model have no slack; the requested speed and step
-    length have one of weight w = 100, all other limits w = 1, so that these give way first.
+    length have one of weight w = 100, all other limits one of w = 1, so that a limit gives way before the
+    request does.
 
     bounds: lower and upper ones of x (nx,). request, status: the request in words, and the status with which
     IPOPT failed before, for the message. Raises GaitError naming the limits whose slack stays above 1e-5,
     dimensionless or [rad].
     """
-    # ASKED: names of the rows of the requested speed and step length
+    # soft: rows that get a slack; ASKED: names of the rows of the requested speed and step length; rows: first
+    # the equations of the model, as they are, then the soft ones
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
     rows = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
     names = list(dict.fromkeys(row.name for row in soft))

@@ -142,8 +142,8 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     if request.through is None:
         leg = robot_of(biped).leg
         step = request.step or _STEP * leg  # half the leg, where no step length is asked for
-        # most: of the speeds, as LONGEST_STEP of the steps; above sqrt(g leg) an inverted pendulum already
-        # leaves the ground
+        # most: largest speed that is searched [m/s], 1.5 times sqrt(g leg), at which an inverted pendulum
+        # already leaves the ground; LONGEST_STEP: of the steps, as a share of the leg
         most = 1.5 * math.sqrt(biped.description.gravity * leg)
         if step > nlp.LONGEST_STEP * leg or (request.speed or 0.0) > most:
             raise GaitError(
@@ -191,7 +191,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # the same rows as in the design, but at all nodes of `orbit`; nothing is solved
     finer = replace(request, nodes=len(rates))
     programme, _ = nlp.transcribe(biped, finer, loose, float(np.sign(rate)))
-    # ASKED: rows of speed and step length
+    # ASKED: rows of speed and step length, which may be missed by 5e-5, relative and over the leg
     allowed = dict.fromkeys(nlp.ASKED, 5e-5)
     # a foot without a required clearance is kept above the ground at the programme's nodes alone
     # LATE: row on the swing foot where no clearance is asked for
@@ -354,6 +354,7 @@ def _bounds(
     # rate, rates: |Theta'| just before the impact and at the nodes; alpha: coefficients; q, slope: q- and
     # dq_b/dTheta just before the impact
     free = Unknowns[Array](*(np.full(part.shape, np.inf) for part in unknowns))
+    # one, each: ones in the shapes of an unknown that is one number, and of one for each node
     one, each = np.ones(1), np.ones(request.nodes)
     peak = (1.0 - limits.reserve) * one
     least = 0.0 * one if request.objective is Objective.PEAK else peak
@@ -385,7 +386,7 @@ def exact_gait(
     # the two outer coefficients at either end follow from the impact, those between are the solution's
     alpha = np.array(h.curve.coefficients)
     alpha[:, 2:-2] = x.alpha[:, 2:-2]
-    zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), 120)
+    zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), nodes=120)
     # {}: the provenance is added below, as it has the step length
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
     step = gait.step_length(biped)

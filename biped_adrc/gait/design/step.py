@@ -11,7 +11,7 @@ the rate |Theta'| there: nothing is integrated in time, and CasADi's derivatives
 
 The planar model (`model.planar_robot`) is written for NumPy arrays; with arrays of CasADi scalars the same code
 gives expressions. `nlp` builds cost and constraints from a `SymbolicStep`; `optimise` reads the solution by the
-names of `Unknowns`.
+names of `Unknowns`. Each constraint of the programme is a `Bounded`.
 """
 
 from __future__ import annotations

@@ -323,8 +323,10 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     layout = layout_of(record.convention, biped)
     every, turns = coordinates(record, layout)
     along, remark = onto_ground(every, biped, record.slope)
-    # along: curves of all coordinates, with dq/ds at s = 1 in dq, so dq / span is dq/dTheta before impact
+    # every, along: curves of all coordinates, before and after that; turns: whole turns (n,) that were added
+    # dq is dq/ds at s = 1, so dq / span is dq/dTheta before impact
     curve, span = along.curve, along.theta_minus - along.theta_plus
+    # the gait's constraint: the curves of the joints with motors, without the last row
     constraint = replace(along, curve=type(curve)(curve.coefficients[:-1]))
     q, dq, _ = curve(1.0)
     provenance = dict(record.provenance) or {

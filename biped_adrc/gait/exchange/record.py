@@ -139,8 +139,8 @@ def onto_ground(
     along: VirtualConstraint, biped: Biped, slope: float
 ) -> tuple[VirtualConstraint, dict[str, str]]:
     """Move the end of a step, and so its start after relabelling, until the swing foot is on ground of `slope`
-    [rad], as `foot_down` does; returns the curves and a remark for the provenance. along: the curves of all
-    coordinates.
+    [rad], as `foot_down` does; returns the curves and a remark for the provenance. along: the curves (n rows)
+    of all coordinates.
 
     dq/dTheta at the end stays; at the start it changes as dq/dTheta after the impact does, so that a
     hybrid-invariant gait stays one. Only Bezier curves are moved.
@@ -170,13 +170,12 @@ def mapped(curve: Curve, A: Array, b: Array) -> Curve:
 
 
 def coordinates(record: GaitFile, layout: Convention) -> tuple[VirtualConstraint, Array]:
-    """Convert a record to curves of all n of the paper's coordinates over their phase, those of the actuated
-    ones and of the last; layout: the record's convention. Also returns the whole turns (n,) that were added so
-    that hips lie near pi and the others near 0.
+    """Convert a record to curves (n rows) of all the paper's coordinates over their phase, the one without a
+    motor last, and the whole turns (n,) that were added so that hips lie near pi and the others near 0.
 
-    It completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it
-    is parallel to it, and adds whole turns (none in the robot's own coordinates). Raises GaitError when the
-    rows do not determine the coordinates.
+    layout: the record's convention. The coordinates are completed by the phase, the angles are mapped, and the
+    phase is scaled to the paper's own row where it is parallel to it; in the robot's own coordinates no turns
+    are added. Raises GaitError when the rows do not determine the coordinates.
     """
     # c: row of the phase in the record's own coordinates q'
     c = layout.phase if record.phase is None else record.phase
@@ -258,8 +257,6 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
     back = other.to_paper.inverse
     # Theta = c q = c A q' + c b
     plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
-    # the entries that are the same in all conventions
-    names = ("name", "robot", "preset", "provenance", "period", "slope")
     return GaitFile(
         to,
         other.outputs @ mapped(curve, back.A, back.b).coefficients,
@@ -269,5 +266,10 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
         curve=type(constraint.curve).__name__.lower(),
         q_minus=back.angles(gait.q_minus),
         v_minus=back.rates(gait.v_minus),
-        **{name: getattr(gait, name) for name in names},
+        period=gait.period,
+        slope=gait.slope,
+        name=gait.name,
+        robot=gait.robot,
+        preset=gait.preset,
+        provenance=gait.provenance,
     )

@@ -298,7 +298,7 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
     best = min((gap for gap, _ in found.values()), default=math.inf)
     if best > FITS:
         return "; no other gravity, length of the legs or mass of one body alone explains them"
-    # also those that fit not much worse than the best one
+    # also those that fit not much worse: their distance is at most 3 times that of the best one
     causes = [f"{x} times {k:.4g}" for x, (gap, k) in found.items() if gap <= 3.0 * best]
     return f"; they would fit with {' or '.join(causes)}"
 

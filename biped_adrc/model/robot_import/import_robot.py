@@ -72,10 +72,7 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     colours = dict.fromkeys(tree.links, (0.35, 0.35, 0.4, 1.0))
     colours |= dict.fromkeys(one - other, (0.0, 0.45, 0.7, 1.0))
     colours |= dict.fromkeys(other - one, (0.84, 0.37, 0.0, 1.0))
-    links = {
-        name: replace(link, visuals=_shapes(tree, link, colours[name]))
-        for name, link in tree.links.items()
-    }
+    links = {k: replace(x, visuals=_shapes(tree, x, colours[k])) for k, x in tree.links.items()}
     text = "shapes: none were read that can be drawn, so rods and balls are drawn instead"
     return replace(tree, links=links), (Note("assumed", text),)
 
@@ -185,6 +182,7 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     bodies: dict[str, list[str]] = {}
     for link in (x for x in heavy if x not in twins.values()):  # none of the swing leg
         group = [link, twins[link]] if link in twins else [link]
+        # side: the part of a link's name that says left or right
         side = r"(^|[_-])(left|right|l|r)(?=$|[_-])"
         name = re.sub(side, "", link, flags=re.IGNORECASE).strip("_-") if link in twins else link
         occupied = not name or name in bodies or (name in heavy and name not in group)

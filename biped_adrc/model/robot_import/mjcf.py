@@ -85,6 +85,7 @@ def _compiled(model: Any, path: Path) -> Any:
         root = ET.fromstring(path.read_bytes().lstrip())
         bodies = root.findall(".//body")
         # without `pos` the turn of a turned body, and the place of a body without joints, would be lost
+        # turns: attributes of a body that turn its frame
         turns = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
         if any(turns & {*body.attrib} or body.find("joint") is None for body in bodies):
             raise

@@ -196,18 +196,18 @@ class RobotDescription(Shown):
         x, y, z = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
         axes: dict[str, Triple] = dict(zip(self.base, (x, z), strict=True))
         joints = {joint.name: joint for joint in tree.joints}
+        missing = f"missing in {list(joints)}"
         for name, axis in (axes | dict.fromkeys(self.joints, y)).items():
             kind, joint = "revolute" if axis == y else "prismatic", joints.get(name)
             along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
             # a revolute joint may turn about -y, a slide must not be turned round
             off = 1.0 - (abs(along) if kind == "revolute" else along)
-            # 1 - cos of the angle between the axes
+            # off: 1 - cos of the angle between the axes; 1e-6 of it is 0.08 degrees
             if joint is None or joint.type != kind or not abs(off) <= 1e-6:
-                there = joint and f"{joint.type} along {text_of(joint.axis)}"
+                found = f"{joint.type} along {text_of(joint.axis)}" if joint else missing
                 raise ModelError(
-                    f"'{tree.source}': joint '{name}' of the record of robot '{self.name}' is "
-                    f"{there or f'missing in {list(joints)}'}, expected {kind} along {text_of(axis)}: a planar "
-                    "robot moves in x and z"
+                    f"'{tree.source}': joint '{name}' of the record of robot '{self.name}' is {found}, "
+                    f"expected {kind} along {text_of(axis)}: a planar robot moves in x and z"
                 )
 
 
@@ -266,6 +266,10 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
             # bodies of a preset are keys of its table, so the file has no word "bodies"
             innermost = max(error.errors(), key=lambda one: len(one["loc"]))
             raise ValueError(problem(innermost).replace(".bodies.", ".")) from None
+        lists = {"joints": (*d.joints, *d.base), "feet": d.feet, "links": sum(d.links.values(), ())}
+        for what, names in lists.items():
+            if len(set(names)) < len(names):
+                raise ValueError(f"the {what} are {names}, expected a list of different names")
         n = len(d.joints)
         d = d if "offset" in data else replace(d, offset=(0.0,) * n)
         # rows of numbers, with the number of entries that each must have
@@ -276,10 +280,6 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         for key, (row, count) in rows.items():
             if len(row) != count:
                 raise ValueError(f"{key} is {list(row)}, expected {count} finite numbers")
-        lists = {"joints": (*d.joints, *d.base), "feet": d.feet, "links": sum(d.links.values(), ())}
-        for what, names in lists.items():
-            if len(set(names)) < len(names):
-                raise ValueError(f"the {what} are {names}, expected a list of different names")
         for key, table in (("ranges", d.ranges), ("friction", {**d.viscous, **d.static})):
             if others := sorted(set(table) - set(d.joints)):
                 raise ValueError(f"{key} names {others}, the joints are {list(d.joints)}")

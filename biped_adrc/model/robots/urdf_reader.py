@@ -144,6 +144,7 @@ def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[No
     shapes = zip(bodies, links.values(), strict=True)
     undrawn = [x.name for e, x in shapes if len(e.findall("visual")) > len(x.visuals)]
     parts = (child.tag for e in (robot, *bodies, *robot.findall("joint")) for child in e)
+    # used: the elements that are read
     used = "link|joint|transmission|inertial|visual|origin|parent|child|axis|limit|dynamics"
     other = Counter(tag for tag in parts if not re.fullmatch(used, tag))
     # (kind, what was found, text): no note where it is 0 or empty
@@ -359,6 +360,7 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     # the permutation of axes next to the turn; a cylinder must only have its axis along z
     axes = np.asarray(np.round(np.abs(turn)), dtype=np.float64)
     oblique = {"box": np.max(np.abs(np.abs(turn) - axes)), "cylinder": 1.0 - abs(turn[2, 2])}
+    # 1e-6, dimensionless: how far the shape's axes may be from those of the frame
     if not abs(oblique.get(shape.tag, 0.0)) < 1e-6:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
@@ -384,6 +386,7 @@ def _joint(element: ET.Element, turns: Mapping[str, Array], parent: str, child: 
         )
     axis_element = None if kind in ("fixed", "floating") else element.find("axis")
     axis = np.array(_numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
+    # files round their axes, so 1e-6 from unit length will do
     if abs(math.hypot(*axis) - 1.0) > 1e-6:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":  # <axis> is in the child's frame

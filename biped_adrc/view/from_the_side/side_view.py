@@ -82,6 +82,7 @@ def _axis(visual: Visual) -> Array | None:
         return None
     # a cylinder has the size (radius, length) and lies along z; a box has three edges
     edges = np.array((0.0, 0.0, visual.size[1]) if visual.shape == "cylinder" else visual.size)
+    # along: half of the longest edge, on its axis
     along = np.where(np.arange(3) == np.argmax(edges), 0.5 * edges, 0.0)
     return np.array(visual.origin) + np.array([-along, along])
 

@@ -286,4 +286,5 @@ def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
     # switching times may be outside of the arc
     edges = *scene.walker.switching_times(arc.mode), *placement.contact_changes(scene, arc)
-    return np.unique([start, *(t for t in (*frames, *edges) if start < t < end), end])
+    inside = [t for t in (*frames, *edges) if start < t < end]
+    return np.unique([start, *inside, end])

@@ -147,6 +147,7 @@ def _limits(column: Sequence[Axes], low: float, high: float) -> None:
         values = np.concatenate([np.zeros(0), *inside])
         values = values[np.isfinite(values)]
         least, most = values.min(initial=np.inf), values.max(initial=-np.inf)
+        # a margin: a factor of two on a logarithmic axis, else 6 % of the range
         if most > least:
             pad, log = 0.06 * (most - least), axes.get_yscale() == "log"
             axes.set_ylim((0.5 * least, 2.0 * most) if log else (least - pad, most + pad))

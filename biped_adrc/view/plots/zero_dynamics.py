@@ -220,7 +220,7 @@ def rough_ground_figure(ground: RoughGround, steps: Iterable[tuple[float, float]
             axes.axhline(bound / level, color=GREY, ls=DASHES[1], lw=0.8)
         x, y = np.array(worst_steps(ground, H)).T
         axes.plot(1e3 * x, y / level, "o", color=PALETTE[1], ms=4, label="worst ground")
-        x, y = np.array(list(steps)).T
+        x, y = np.reshape([*steps], (-1, 2)).T
         axes.plot(1e3 * x, y / level, ".", color="black", ms=3, label="walks")
         for end in (-H, H):
             axes.axvline(1e3 * end, color=GREY, ls=":", lw=0.8)
