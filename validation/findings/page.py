@@ -112,8 +112,8 @@ def fields() -> dict[str, Any]:
     of_ground, of_tracking = ("exact", "v0.6", "ground", "NPD"), (*exact, "NPD")
     best = comparison.best_of(rows("settings"))
     every_pair = pairs((*rabbit, "m = 1"), (*rabbit, "NPD"))
-    plans = (PLAN["search"], *PLAN["search_more"].values())
-    budgets, doublings = ([x[k] for x in plans] for k in ("budget", "doublings"))
+    plans = [PLAN["search"] | more for more in ({}, *PLAN["search_more"].values())]
+    in_all = [x["budget"] << x["doublings"] for x in plans]
     walked_10, so_tuned = (
         [
             fine((hardware, "v0.6", tuning, c), "10 mm")
@@ -204,7 +204,10 @@ def fields() -> dict[str, Any]:
             rough=walks_of("reset, rough", "20 mm"),
         ),
         "plan": Names(
-            low=min(budgets), high=max(budgets), once=min(doublings), more=max(doublings)
+            low=PLAN["search"]["budget"],
+            high=max(x["budget"] for x in plans),
+            least=min(in_all),
+            most=max(in_all),
         ),
         "orders": Names(
             most=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (1, 2, 3, 5, 7)),
