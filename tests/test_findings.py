@@ -43,6 +43,8 @@ def test_the_rows_are_those_of_the_questions_that_stand_last_in_the_list_of_vers
     with (statistics.HERE / "versions.csv").open() as file:
         versions = list(csv.DictReader(file))
     assert versions[-1]["hash"] == statistics.text_hash()
+    assert all(len(v["answers"].split(", ")) == 6 for v in versions[:-1])
+    assert all(v["hash"] in numbers.versions() for v in versions)
     for name in (*COMPARED, SOFT):
         assert {r["question"] for r in numbers.rows(name)} == {statistics.text_hash()}
         assert read_study(STUDIES / f"{name}.toml").seeds[0] == statistics.first_seed()
@@ -124,26 +126,25 @@ def test_holm():
 
 
 def test_the_numbers_of_the_readme_are_those_of_the_page():
-    """Its first question with the interval, and how many walks are feasible."""
+    """Its first question with the upper end of the interval, and how many walks are feasible."""
     words = " ".join((comparison.ROOT / "README.md").read_text().split())
-    assert (
-        f"leaves **{numbers.in_words(numbers.answers()[0][1])}** of NPD's tracking error" in words
-    )
+    answer = numbers.answers()[0][1]
+    assert f"leaves **{answer.value:.2g} (at most {answer.high:.2g})** of NPD's tracking" in words
     at = ("rabbit", "v0.6", "tracking")
     adrc, npd = (numbers.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
-    assert f"Under ADRC {adrc} of 20 walks are feasible, under NPD {npd}." in words
+    assert f"That more walks are feasible is not shown ({adrc} and {npd} of 20)." in words
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
-    """Of 20 grounds v0.6 falls or stalls on some and walks few feasibly; the other gait walks all."""
+    """Of 20 grounds of 30 mm v0.6 falls on some and walks none feasibly; the other gait falls on none."""
     monkeypatch.syspath_prepend(str(comparison.ROOT / "docs"))
     pictures = importlib.import_module("make_pictures")
     left, right = (pictures.outcomes(gait) for gait in ("v0.6", "rough"))
     words = " ".join((comparison.ROOT / "README.md").read_text().split())
     assert f"Of {left.total()} such grounds" in words
-    lost = left["fell"] + left["ended"]
-    assert f"walks {left['feasible']} feasibly, and falls or stalls on {lost}" in words
-    assert f"walks all {right['feasible']}." in words
+    fallen, walked = ([x[k] for x in (left, right)] for k in ("fell", "feasible"))
+    assert f"falls on {fallen[0]} in 12 steps, and walks {walked[0]} feasibly" in words
+    assert f"falls on {fallen[1]}, and walks {walked[1]}." in words
 
 
 def test_each_number_of_a_question_stands_on_the_page():

@@ -67,7 +67,7 @@ def test_the_slope_of_a_plant_is_that_of_the_walk(biped, gait):
     with pytest.warns(ba.WalkWarning, match="made for a slope of 0 rad, and the ground has -0.01"):
         walk = ba.walk(walker, gait, impacts=1, plant=plant)
     assert walk.walker.slope == -0.01
-    with pytest.raises(InputError, match=r"a slope of -0\.01 rad, and the walker 0\.02"):
+    with pytest.raises(InputError, match=r"a slope of -0\.01 rad, the walker 0\.02"):
         ba.walk(replace(walker, slope=0.02), gait, plant=plant)
 
 

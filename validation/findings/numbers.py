@@ -184,9 +184,12 @@ def question(q: dict[str, Any], answer: Answer | None, p: float) -> Names:
 
 
 def versions() -> str:
-    """Each committed version of the questions' text, by hash and date."""
+    """Each committed version of the questions' text by its hash, with the answers of those before the last."""
     with (statistics.HERE / "versions.csv").open() as file:
-        return "; ".join(f"{r['hash']} of {r['date']}, {r['what']}" for r in csv.DictReader(file))
+        *before, last = csv.DictReader(file)
+    return (
+        "; ".join(f"{r['hash']} ({r['answers']})" for r in before) + f"; {last['hash']}, this one"
+    )
 
 
 def error_in_words(at: Place) -> str:
@@ -217,31 +220,22 @@ def stops() -> Names:
     best = comparison.best_of(rows("settings"))
     untuned = [r for r in best if r["stop"].startswith("not tuned")]
     tuned = [r["stop"] for r in best if r not in untuned]
-    words = (sum(r["tuning"] == "ground" for r in some) for some in (untuned, best))
     questions = statistics.questions()["question"]
     sides: list[Place] = [tuple(q[k]) for q in questions for k in ("one", "other")]
     titles = [("rabbit", "rough", "tracking", c) for c in ("m = 1", "NPD", "PID")]
     asked = {at: best_row(at)["stop"].partition(";")[0] for at in (*sides, *titles)}
-    some = [f"{at[-1]} on {at[1]} ({x})" for at, x in asked.items() if x.startswith("not tuned")]
+    some = [f"{at[-1]} on {at[1]}" for at, x in asked.items() if x.startswith("not tuned")]
     gains = {place_of(r): gain(place_of(r)) for r in best}
     still = [at for at in dict.fromkeys(sides) if gains[at] >= ENOUGH]
     return Names(
         count=len(best),
         limit=sum("1 ms more" in x for x in tuned),
         untuned=len(untuned),
-        ground=" of ".join(map(str, words)),
-        asked=", ".join(dict.fromkeys(some)).replace("not tuned: ", "") or "none",
+        asked=", ".join(dict.fromkeys(some)) or "none",
         gaining=sum(x >= ENOUGH for x in gains.values()),
         sides="; ".join(f"{', '.join(at)} by {gains[at]:.1%}" for at in still) or "none",
         asked_count=len({*sides}),
-        npd=gained(best_row(sides[1])),
-        m1=gained(best_row(sides[0])),
     )
-
-
-def gained(row: dict[str, str]) -> str:
-    """What the last doubling of a search gained, on the walks of the search."""
-    return row["stop"].rpartition("gained ")[2]
 
 
 def pairs(one: Place, other: Place) -> list[float]:
@@ -252,6 +246,18 @@ def pairs(one: Place, other: Place) -> list[float]:
         for x in a.errors
         for y in b.errors
     ]
+
+
+def where_both(one: Place, other: Place) -> str:
+    """The median ratio of errors under the push, of the walks that are feasible on both sides."""
+    a, b = (x.errors[x.best] for x in (side_of(one, PUSH), side_of(other, PUSH)))
+    both = np.isfinite(a) & np.isfinite(b)
+    return f"{np.median(a[both] / b[both]):.2g}"
+
+
+def of_all(at: Place) -> str:
+    """The share [%] of feasible walks under the push, over all searches at a place."""
+    return f"{100.0 * np.isfinite(side_of(at, PUSH).errors).mean():.0f}"
 
 
 def small_and_robust(at: Place) -> tuple[str, str]:
@@ -310,13 +316,6 @@ def fine(at: Place, condition: str) -> int:
     """The number of feasible walks of the best search."""
     found = side_of(at, condition)
     return int(np.isfinite(found.errors[found.best]).sum())
-
-
-def failures() -> str:
-    """How many searches found no setting within the limits, and how many chose the case as it was."""
-    every = [r["values"] for r in rows("settings")]
-    none, before = every.count(""), every.count("{}")
-    return f"{none} of {len(every)} found no setting, {before} chose the controller's defaults"
 
 
 def walks_of(case: str, condition: str) -> str:

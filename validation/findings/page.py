@@ -28,12 +28,12 @@ from validation.findings.numbers import (
     by_name,
     compared,
     error_in_words,
-    failures,
     feasible,
     fine,
     gains,
     largest_force,
     margin,
+    of_all,
     of_soft,
     orders,
     pairs,
@@ -52,6 +52,7 @@ from validation.findings.numbers import (
     stops,
     versions,
     walks_of,
+    where_both,
 )
 from validation.findings.searches import PLAN
 
@@ -122,6 +123,17 @@ def fields() -> dict[str, Any]:
         ]
         for tuning in ("ground", "tracking")
     )
+    # b0 and the three behind it are ADRC laws
+    light = [fine((*rabbit, c), "masses x 0.7") for c in PLAN["controllers"]]
+    on_ground = [fine(("rabbit", "v0.6", "ground", c), "masses x 0.7") for c in PLAN["controllers"]]
+    on_20 = {
+        gait: [
+            fine((h, gait, "ground", c), "20 mm")
+            for h in PLAN["hardware"]
+            for c in PLAN["controllers"]
+        ]
+        for gait in PLAN["gaits"]
+    }
     return {
         **{f"q{i}": question(*x) for i, x in enumerate(answers(), 1)},
         "walks": statistics.questions()["walks"],
@@ -135,34 +147,45 @@ def fields() -> dict[str, Any]:
         "push": Names(
             m1=fine((*rabbit, "m = 1"), PUSH),
             npd=fine((*rabbit, "NPD"), PUSH),
-            m1hip=fine((*rabbit, "m = 1"), "hip, 2 N"),
-            npdhip=fine((*rabbit, "NPD"), "hip, 2 N"),
-            hip=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), "hip, 2 N", "share"),
+            walked=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), PUSH, "share"),
             heavy=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), "masses x 1.5"),
+            later=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), comparison.LATER),
+            trunk=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), "trunk +30 %"),
+            b0_heavy=compared((*rabbit, "ADRC b0"), (*rabbit, "m = 1"), "masses x 1.5"),
+            both=where_both((*rabbit, "m = 1"), (*rabbit, "NPD")),
+            m1_all=of_all((*rabbit, "m = 1")),
+            npd_all=of_all((*rabbit, "NPD")),
+            heavy_rough=compared((*rough, "m = 1"), (*rough, "NPD"), "masses x 1.5"),
         ),
         "limit": Names(
             npd=fine((*rabbit, "NPD"), comparison.LATER),
             m1=fine((*rabbit, "m = 1"), comparison.LATER),
             least=min(fine(place_of(r), comparison.LATER) for r in best),
         ),
-        "range": Names(low=min(walked_10), high=max(walked_10), tracking=max(so_tuned)),
-        "failed": failures(),
+        "range": Names(
+            low=min(walked_10),
+            high=max(walked_10),
+            tracking=max(so_tuned),
+            rough20=f"{min(on_20['rough'])} to {max(on_20['rough'])}",
+            level20=max(on_20["v0.6"]),
+        ),
         "stop": stops(),
         "exact": Names(
             b0m=compared((*exact, "ADRC b0"), (*exact, "m = 1")),
+            b0m_later=compared((*exact, "ADRC b0"), (*exact, "m = 1"), comparison.LATER),
+            b0_later=fine((*exact, "ADRC b0"), comparison.LATER),
+            trunk=compared((*exact, "m = 1"), (*exact, "NPD"), "trunk +30 %"),
             st=compared((*exact, "super twisting"), (*exact, "NPD")),
             st_value=compared((*exact, "super twisting"), (*exact, "NPD")).partition(" ")[0],
         ),
         "ground": Names(
+            walks=feasible(of_ground, "10 mm"),
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
             small=small_and_robust(of_ground)[0],
             small_error=small_and_robust(of_ground)[1],
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
-            push=compared((*rough, "m = 1"), (*rough, "NPD"), PUSH, "share"),
-            m1_push=fine((*rough, "m = 1"), PUSH),
-            npd_push=fine((*rough, "NPD"), PUSH),
             npd=compared((*rough, "m = 1"), (*rough, "NPD")),
             npd_value=compared((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
             pid=compared((*rough, "m = 1"), (*rough, "PID")),
@@ -179,13 +202,17 @@ def fields() -> dict[str, Any]:
             level10=feasible(ground["v0.6"], "10 mm"),
             rough20=feasible(ground["rough"], "20 mm"),
             level20=feasible(ground["v0.6"], "20 mm"),
-            b0=fine((*rough, "ADRC b0"), "10 mm"),
-            m1=fine((*rough, "m = 1"), "10 mm"),
+            pd20=fine(("rabbit", "v0.6", "ground", "PD"), "20 mm"),
         ),
         "load": Names(
+            most=max(light),
+            least=min(light[4:]),
+            adrc=max(light[4:]),
+            exact=max(fine((*exact, c), "masses x 0.7") for c in PLAN["controllers"]),
             light=by_name(rabbit, "masses x 0.7"),
             light_rough=by_name(rough, "masses x 0.7"),
-            light_ground=by_name(ground["v0.6"][:3], "masses x 0.7"),
+            ground=min(on_ground[:-1]),
+            cascade=on_ground[-1],
         ),
         "soft": of_soft(),
         "hip": Names(
