@@ -113,6 +113,7 @@ def fields() -> dict[str, Any]:
     of_ground, of_tracking = ("exact", "v0.6", "ground", "NPD"), (*exact, "NPD")
     best = comparison.best_of(rows("settings"))
     every_pair = pairs((*rabbit, "m = 1"), (*rabbit, "NPD"))
+    of_pid = pairs((*rough, "m = 1"), (*rough, "PID"))
     plans = [PLAN["search"] | more for more in ({}, *PLAN["search_more"].values())]
     in_all = [x["budget"] << x["doublings"] for x in plans]
     walked_10, so_tuned = (
@@ -189,6 +190,7 @@ def fields() -> dict[str, Any]:
             npd=compared((*rough, "m = 1"), (*rough, "NPD")),
             npd_value=compared((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
             pid=compared((*rough, "m = 1"), (*rough, "PID")),
+            pid_pairs=f"{min(of_pid):.2g} to {max(of_pid):.2g}",
             pid_value=compared((*rough, "m = 1"), (*rough, "PID")).partition(" ")[0],
             b0=compared((*rough, "ADRC b0"), (*rough, "m = 1")),
         ),
