@@ -268,13 +268,16 @@ def solve_nlp(
         "ipopt.acceptable_iter": 5,
     }
     solver = ca.nlpsol("gait", "ipopt", problem, options)
-    result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
-    stats = solver.stats()
-    status, count = stats["return_status"], stats["iter_count"]
+    try:
+        result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
+    except SystemError as error:
+        # Python 3.13 says so of CasADi after Ctrl-C: a result is returned while KeyboardInterrupt is set
+        raise error.__cause__ or error from None
+    status, *how = (solver.stats()[k] for k in ("return_status", "success", "iter_count"))
     # how CasADi reports Ctrl-C, in an evaluation or between two of them
     if status in ("NonIpopt_Exception_Thrown", "User_Requested_Stop"):
         raise KeyboardInterrupt
-    return IpoptResult(np.array(result["x"]).ravel(), status, stats["success"], count)
+    return IpoptResult(np.array(result["x"]).ravel(), status, *how)
 
 
 def relaxed(
