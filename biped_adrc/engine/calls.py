@@ -24,7 +24,7 @@ from biped_adrc.core.part import content, once, with_content
 from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
-from biped_adrc.engine.generated import generated, on_symbols
+from biped_adrc.engine.generated import generated, with_casadi
 from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.program import push_code
@@ -99,7 +99,7 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
         result = Layout.of(getattr(part, method)(*examples))
     inputs = Layout.of(examples)
 
-    traced = partial(on_symbols, "equations", "method_function", part, method, inputs)
+    traced = partial(with_casadi, "equations", "method_function", part, method, inputs)
     code = generated((method, inputs, structure(part)), {"method": traced})
     called = Call(code, "method", np.array([*floats(part), 0.0]), inputs.size, result.size)
     one_thread = threading.Lock()

@@ -16,20 +16,20 @@ from biped_adrc.engine.structure import lasting
 if TYPE_CHECKING:
     from biped_adrc.engine.equations import SymbolicFunction
 
-_Traced = Mapping[str, Callable[[], "SymbolicFunction"]]
+_Traces = Mapping[str, Callable[[], "SymbolicFunction"]]
 """Name of a function -> what is called to trace it where its code is neither in memory nor on disk."""
 _IN_MEMORY: dict[Hashable, Code | str] = {}
 """Structure and names of functions -> their code; a text where they cannot be compiled, the reason."""
 
 
-def on_symbols(module: str, name: str, *arguments: object) -> Any:
+def with_casadi(module: str, name: str, *arguments: object) -> Any:
     """What the function `name` of a module of the engine returns; the import is here, as it brings CasADi in,
     which is needed only where something is traced.
     """
     return getattr(import_module(f"biped_adrc.engine.{module}"), name)(*arguments)
 
 
-def generated(key: Hashable, functions: _Traced, optimised: bool = False, lanes: int = 1) -> Code:
+def generated(key: Hashable, functions: _Traces, optimised: bool = False, lanes: int = 1) -> Code:
     """The machine code of these functions; they are traced once per structure.
 
     - key: the structure of what they are made from; equal keys have to mean equal code.
@@ -41,7 +41,7 @@ def generated(key: Hashable, functions: _Traced, optimised: bool = False, lanes:
     """
 
     def text() -> str:
-        return on_symbols("ir", "module_text", {x: f() for x, f in functions.items()}, lanes)
+        return with_casadi("ir", "module_text", {x: f() for x, f in functions.items()}, lanes)
 
     return generated_text((key, *functions, lanes), tuple(functions), text, optimised)
 

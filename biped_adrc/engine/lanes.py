@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.core.types import Array
-from biped_adrc.engine.generated import generated_text, on_symbols
+from biped_adrc.engine.generated import generated_text, with_casadi
 from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import END, Ints, block_rows
@@ -81,14 +81,14 @@ class Lanes:
         more = int(compiled.plan["moving"]), int(compiled.plan["lags"]), lanes
         key, laws = ("lanes", program.key, *more), dict.fromkeys(("pushes", "look"), 0)
         names = ("slope", "step", *(["tick"] if program.numbers.held else []))
-        text = partial(on_symbols, "stretch", "stretch_text", program.equations, *more)
+        text = partial(with_casadi, "stretch", "stretch_text", program.equations, *more)
         addresses = generated_text(key, names, text).addresses
         # by the fields of one walk's functions in a run
         laws |= zip(("flow", "events", "tick"), map(addresses.__getitem__, names), strict=False)
         if terms:
             n = program.numbers.plant.n
             push = "push", structure(terms), n, lanes
-            text = partial(on_symbols, "stretch", "push_text", terms, n, lanes)
+            text = partial(with_casadi, "stretch", "push_text", terms, n, lanes)
             laws["pushes"] = generated_text(push, ("push",), text).addresses["push"]
         if read:
             laws["look"] = program.reading(step_reading, lanes).addresses["reading"]

@@ -32,7 +32,7 @@ from biped_adrc.core.part import once
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import NO_PUSH, Disturbance
-from biped_adrc.engine.generated import generated, on_symbols
+from biped_adrc.engine.generated import generated, with_casadi
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
 from biped_adrc.engine.machine import Code
@@ -140,7 +140,7 @@ class Program:
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
-            traced = partial(on_symbols, "equations", "matvec_function", *sizes)
+            traced = partial(with_casadi, "equations", "matvec_function", *sizes)
             code = generated(sizes, {name: traced}, optimised=True)
         return code.addresses.get(name, 0)
 
@@ -155,7 +155,7 @@ def push_code(term: Disturbance, n: int) -> Code:
     # compiled loops get the table `switches`, and could not call a `switching_times` of the user's
     if type(term).switching_times is not Disturbance.switching_times:
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
-    traced = partial(on_symbols, "equations", "push_function", term, n)
+    traced = partial(with_casadi, "equations", "push_function", term, n)
     return generated(("push", n, structure(term)), {"push": traced})
 
 

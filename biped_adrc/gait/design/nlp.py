@@ -273,11 +273,11 @@ def solve_nlp(
     except SystemError as error:
         # Python 3.13 says so of CasADi after Ctrl-C: a result is returned while KeyboardInterrupt is set
         raise error.__cause__ or error from None
-    status, *how = (solver.stats()[k] for k in ("return_status", "success", "iter_count"))
+    status, solved, count = (solver.stats()[k] for k in ("return_status", "success", "iter_count"))
     # how CasADi reports Ctrl-C, in an evaluation or between two of them
     if status in ("NonIpopt_Exception_Thrown", "User_Requested_Stop"):
         raise KeyboardInterrupt
-    return IpoptResult(np.array(result["x"]).ravel(), status, *how)
+    return IpoptResult(np.array(result["x"]).ravel(), status, solved, count)
 
 
 def relaxed(
