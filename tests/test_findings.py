@@ -44,7 +44,6 @@ def test_the_rows_are_those_of_the_questions_that_stand_last_in_the_list_of_vers
         versions = list(csv.DictReader(file))
     assert versions[-1]["hash"] == statistics.text_hash()
     assert all(len(v["answers"].split(", ")) == 6 for v in versions[:-1])
-    assert all(v["hash"] in numbers.versions() for v in versions)
     for name in (*COMPARED, SOFT):
         assert {r["question"] for r in numbers.rows(name)} == {statistics.text_hash()}
         assert read_study(STUDIES / f"{name}.toml").seeds[0] == statistics.first_seed()
@@ -132,7 +131,7 @@ def test_the_numbers_of_the_readme_are_those_of_the_page():
     assert f"leaves **{answer.value:.2g} (at most {answer.high:.2g})** of NPD's tracking" in words
     at = ("rabbit", "v0.6", "tracking")
     adrc, npd = (numbers.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
-    assert f"That more walks are feasible is not shown ({adrc} and {npd} of 20)." in words
+    assert f"ADRC makes {adrc} of 20 walks feasibly, NPD {npd}. This proves no difference." in words
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
@@ -143,8 +142,9 @@ def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
     words = " ".join((comparison.ROOT / "README.md").read_text().split())
     fallen, walked = ([x[k] for x in (left, right)] for k in ("fell", "feasible"))
     assert (
-        f"falls on {fallen[0]} of {left.total()} such grounds, and walks {walked[0]} feasibly; the gait "
-        f"designed for rough ground falls on {fallen[1]} and walks {walked[1]}."
+        f"On {left.total()} such grounds: - the left gait falls on {fallen[0]}, and walks {walked[0]} "
+        f"feasibly; - the right gait, designed for rough ground, falls on {fallen[1]}, and walks "
+        f"{walked[1]} feasibly."
     ) in words
 
 

@@ -26,7 +26,15 @@ LEG = 0.8
 DRAWN = 10_000
 """Draws of an interval beside those of the six questions."""
 PUSH, HEIGHTS = "80 N m", ("5 mm", "10 mm", "20 mm")
-LOADS = (PUSH, "hip, 2 N", "trunk +30 %", "masses x 0.7", "masses x 1.5", "1 ms more")
+LOADS = {
+    PUSH: "pushes of 80 N m",
+    "hip, 2 N": "2 N held on the hip",
+    "trunk +30 %": "30 % more mass on the trunk",
+    "masses x 0.7": "masses times 0.7",
+    "masses x 1.5": "masses times 1.5",
+    comparison.LATER: "1 ms more of delay",
+}
+"""Conditions in words."""
 Place = tuple[str, str, str, str]
 """(hardware, gait, tuning, controller)."""
 
@@ -183,15 +191,6 @@ def question(q: dict[str, Any], answer: Answer | None, p: float) -> Names:
     return Names(value=value, said=in_words(answer), p=p_in_words(p) + warning(q["one"]))
 
 
-def versions() -> str:
-    """Each committed version of the questions' text by its hash, with the answers of those before the last."""
-    with (statistics.HERE / "versions.csv").open() as file:
-        *before, last = csv.DictReader(file)
-    return (
-        "; ".join(f"{r['hash']} ({r['answers']})" for r in before) + f"; {last['hash']}, this one"
-    )
-
-
 def error_in_words(at: Place) -> str:
     """The median error under the push, in mrad, or in urad where it is small."""
     e = statistics.alone(side_of(at, PUSH), "error", DRAWN).value
@@ -297,12 +296,6 @@ def gain(at: Place) -> float:
     return (before - after) / abs(before) if before < math.inf else math.inf
 
 
-def by_name(at: tuple[str, str, str], condition: str) -> str:
-    """Feasible walks of the best search of each controller at a place, such as "PD 8, NPD 5"."""
-    found = {c.removeprefix("ADRC "): fine((*at, c), condition) for c in PLAN["controllers"]}
-    return ", ".join(f"{c.removesuffix(', m = 1')} {n}" for c, n in found.items())
-
-
 def of_soft() -> Names:
     """Feasible walks on MuJoCo's ground, level and pushed, by controller."""
     names = {"m = 1": "m1", "assisted, m = 1": "assisted", "ADRC b0": "b0"}
@@ -327,15 +320,18 @@ def walks_of(case: str, condition: str) -> str:
     )
 
 
-def spread(at: Place) -> str:
-    """Largest over least median error of a controller's searches, on the walks of choice."""
-    mine = [r for r in rows("settings") if place_of(r) == at and r["values"]]
-    errors = [float(r["on choice"]) for r in mine]
-    return f"{max(errors) / min(errors):.2g}"
-
-
-def margin(at: Place, column: str) -> str:
-    """A number of margins.csv of the best search at a place."""
-    search = best_row(at)["search"]
-    mine = (r for r in rows("margins") if place_of(r) == at)
-    return next(r[column] for r in mine if r["search"] == search)
+def by_condition(one: str, other: str) -> str:
+    """A table of two controllers behind encoders, tuned for tracking: feasible walks and ratio of errors on
+    both gaits, by condition; no ratio where one walks fewer than half.
+    """
+    lines = ["| condition | walks, v0.6 | ratio, v0.6 | walks, rough | ratio, rough |"]
+    lines.append("|---" * 5 + "|")
+    for condition, words in LOADS.items():
+        cells = [words]
+        for gait in PLAN["gaits"]:
+            a, b = ("rabbit", gait, "tracking", one), ("rabbit", gait, "tracking", other)
+            walked = fine(a, condition), fine(b, condition)
+            enough = min(walked) >= statistics.questions()["walks"] / 2
+            cells += [f"{walked[0]}, {walked[1]}", compared(a, b, condition) if enough else "–"]
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)

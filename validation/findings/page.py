@@ -24,15 +24,14 @@ from validation.findings.numbers import (
     PUSH,
     Names,
     answers,
+    by_condition,
     by_controller,
-    by_name,
     compared,
     error_in_words,
     feasible,
     fine,
     gains,
     largest_force,
-    margin,
     of_all,
     of_soft,
     orders,
@@ -48,9 +47,7 @@ from validation.findings.numbers import (
     sizes,
     small_and_robust,
     soft,
-    spread,
     stops,
-    versions,
     walks_of,
     where_both,
 )
@@ -93,7 +90,7 @@ def pictures() -> None:
     picture("gait", shares(by_gait, HEIGHTS), feasible_share, "linear")
     some = {c: ("rabbit", "v0.6", "tracking", c) for c in ("NPD", "PID", "ADRC b0", "m = 1")}
     kept = {c: at for c, at in some.items() if side(at, PUSH)}
-    picture("load", shares(kept, LOADS), feasible_share, "linear")
+    picture("load", shares(kept, [*LOADS]), feasible_share, "linear")
     picture("soft", soft(), feasible_share, "linear")
     ends = (math.nan, math.nan)
     cases = dict.fromkeys((r["case"], r["condition"]) for r in rows("held_hip_force"))
@@ -115,7 +112,6 @@ def fields() -> dict[str, Any]:
     every_pair = pairs((*rabbit, "m = 1"), (*rabbit, "NPD"))
     of_pid = pairs((*rough, "m = 1"), (*rough, "PID"))
     plans = [PLAN["search"] | more for more in ({}, *PLAN["search_more"].values())]
-    in_all = [x["budget"] << x["doublings"] for x in plans]
     walked_10, so_tuned = (
         [
             fine((hardware, "v0.6", tuning, c), "10 mm")
@@ -138,46 +134,32 @@ def fields() -> dict[str, Any]:
     return {
         **{f"q{i}": question(*x) for i, x in enumerate(answers(), 1)},
         "walks": statistics.questions()["walks"],
-        "versions": versions(),
+        "table": by_condition("m = 1", "NPD"),
         "size": Names(
             m1=sizes((*rabbit, "m = 1")),
             npd=sizes((*rabbit, "NPD")),
             m1x=error_in_words((*exact, "m = 1")),
-            npdx=error_in_words((*exact, "NPD")),
         ),
         "push": Names(
             m1=fine((*rabbit, "m = 1"), PUSH),
             npd=fine((*rabbit, "NPD"), PUSH),
-            walked=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), PUSH, "share"),
-            heavy=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), "masses x 1.5"),
-            later=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), comparison.LATER),
-            trunk=compared((*rabbit, "m = 1"), (*rabbit, "NPD"), "trunk +30 %"),
-            b0_heavy=compared((*rabbit, "ADRC b0"), (*rabbit, "m = 1"), "masses x 1.5"),
             both=where_both((*rabbit, "m = 1"), (*rabbit, "NPD")),
             m1_all=of_all((*rabbit, "m = 1")),
             npd_all=of_all((*rabbit, "NPD")),
-            heavy_rough=compared((*rough, "m = 1"), (*rough, "NPD"), "masses x 1.5"),
         ),
-        "limit": Names(
-            npd=fine((*rabbit, "NPD"), comparison.LATER),
-            m1=fine((*rabbit, "m = 1"), comparison.LATER),
-            least=min(fine(place_of(r), comparison.LATER) for r in best),
-        ),
+        "limit": Names(least=min(fine(place_of(r), comparison.LATER) for r in best)),
         "range": Names(
             low=min(walked_10),
-            high=max(walked_10),
             tracking=max(so_tuned),
-            rough20=f"{min(on_20['rough'])} to {max(on_20['rough'])}",
+            rough_least=min(on_20["rough"]),
             level20=max(on_20["v0.6"]),
         ),
         "stop": stops(),
         "exact": Names(
             b0m=compared((*exact, "ADRC b0"), (*exact, "m = 1")),
             b0m_later=compared((*exact, "ADRC b0"), (*exact, "m = 1"), comparison.LATER),
-            b0_later=fine((*exact, "ADRC b0"), comparison.LATER),
             trunk=compared((*exact, "m = 1"), (*exact, "NPD"), "trunk +30 %"),
             st=compared((*exact, "super twisting"), (*exact, "NPD")),
-            st_value=compared((*exact, "super twisting"), (*exact, "NPD")).partition(" ")[0],
         ),
         "ground": Names(
             walks=feasible(of_ground, "10 mm"),
@@ -187,32 +169,22 @@ def fields() -> dict[str, Any]:
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
-            npd=compared((*rough, "m = 1"), (*rough, "NPD")),
-            npd_value=compared((*rough, "m = 1"), (*rough, "NPD")).partition(" ")[0],
             pid=compared((*rough, "m = 1"), (*rough, "PID")),
             pid_pairs=f"{min(of_pid):.2g} to {max(of_pid):.2g}",
-            pid_value=compared((*rough, "m = 1"), (*rough, "PID")).partition(" ")[0],
-            b0=compared((*rough, "ADRC b0"), (*rough, "m = 1")),
         ),
         "margin": Names(
-            b0=margin((*exact, "ADRC b0"), "disk_margin"),
             none=sum(r["disk_margin"] == "0" for r in rows("margins")),
             count=len(rows("margins")),
         ),
         "gait": Names(
-            rough10=feasible(ground["rough"], "10 mm"),
             level10=feasible(ground["v0.6"], "10 mm"),
             rough20=feasible(ground["rough"], "20 mm"),
             level20=feasible(ground["v0.6"], "20 mm"),
-            pd20=fine(("rabbit", "v0.6", "ground", "PD"), "20 mm"),
         ),
         "load": Names(
             most=max(light),
-            least=min(light[4:]),
             adrc=max(light[4:]),
             exact=max(fine((*exact, c), "masses x 0.7") for c in PLAN["controllers"]),
-            light=by_name(rabbit, "masses x 0.7"),
-            light_rough=by_name(rough, "masses x 0.7"),
             ground=min(on_ground[:-1]),
             cascade=on_ground[-1],
         ),
@@ -221,24 +193,19 @@ def fields() -> dict[str, Any]:
             npd=largest_force("NPD", "exact sensors"),
             step=largest_force("footstep, 0.25 m", "exact sensors"),
         ),
-        "spread": Names(
-            npd=spread((*rabbit, "NPD")),
-            m1=spread((*rabbit, "m = 1")),
-            low=f"{min(every_pair):.2f}",
-            high=f"{max(every_pair):.2f}",
-        ),
+        "spread": Names(low=f"{min(every_pair):.2f}", high=f"{max(every_pair):.2f}"),
         "heights": Names(
             level=walks_of("reset, v0.6", "20 mm"),
             npd=walks_of("NPD, rough", "20 mm"),
             rough=walks_of("reset, rough", "20 mm"),
         ),
         "plan": Names(
-            low=PLAN["search"]["budget"],
-            high=max(x["budget"] for x in plans),
-            least=min(in_all),
-            most=max(in_all),
+            low=min(x["budget"] for x in plans),
+            more=max(x["budget"] for x in plans),
+            most=max(x["budget"] << x["doublings"] for x in plans),
         ),
         "orders": Names(
-            most=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (1, 2, 3, 5, 7)),
+            first=orders()["m = 1", "push, 80 N m"][1],
+            others=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (2, 3, 5, 7)),
         ),
     }
