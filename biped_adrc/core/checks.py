@@ -300,9 +300,9 @@ def handing_out() -> Iterator[None]:
     except BipedError:
         raise
     except Exception as error:
-        if not (told := sentence_of(error)):  # empty: the user's code was not running
+        if not (text := sentence_of(error)):  # empty: the user's code was not running
             raise
-        raise RaisedError(told) from error
+        raise RaisedError(text) from error
 
 
 def calls_of(error: Exception) -> list[tuple[CodeType, traceback.FrameSummary]]:

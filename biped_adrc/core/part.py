@@ -224,9 +224,9 @@ def shared(part: T, **values: Any) -> T:
     items = {f.name: getattr(part, f.name) for f in fields(part)} | values  # type: ignore[arg-type]
     same = all(getattr(part, name) is x for name, x in values.items())
     # the fields are kept with the copy: while they live, no other object has the ids that are in the key
-    made = lambda: (items, part if same else type(part)(**items))  # noqa: E731
+    make = lambda: (items, part if same else type(part)(**items))  # noqa: E731
     # [1]: of (fields, copy) the copy
-    return _SHARED.found((type(part), *map(_known_by, items.values())), made)[1]
+    return _SHARED.found((type(part), *map(_known_by, items.values())), make)[1]
 
 
 def _known_by(x: object) -> Hashable:

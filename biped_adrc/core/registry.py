@@ -59,12 +59,12 @@ class _Entry:
     over_steps: bool = False
     """For a disturbance: whether it goes on over impacts, with its window in the time of the walk; else its
     window is in the time of one single support."""
-    given: Maker | None = None
+    thing: Maker | None = None
     """The object itself, where `register` was given it; None: it is imported from `home`."""
 
     def load(self) -> Maker:
         """The class or function itself. Raises InputError where the user's own cannot be imported."""
-        return _imported(self.home) if self.given is None else self.given
+        return _imported(self.home) if self.thing is None else self.thing
 
 
 REGISTRY: dict[str, dict[str, _Entry]] = {
@@ -113,7 +113,7 @@ def register(kind: str, name: str, thing: Maker, words: str = "") -> None:
     if _plain(name) in map(_plain, names(kind)) or is_own(name) or not name.strip():
         raise InputError(f"{kind} '{name}' is taken or reads as module:Class; choose another name")
     home = f"{thing.__module__}:{getattr(thing, '__qualname__', name)}"
-    REGISTRY[kind][name] = _Entry(home, words, given=thing)
+    REGISTRY[kind][name] = _Entry(home, words, thing=thing)
 
 
 def portable(kind: str, name: str) -> str:
@@ -121,7 +121,7 @@ def portable(kind: str, name: str) -> str:
     process alone, else the name itself.
     """
     entry = REGISTRY[kind].get(name)
-    return entry.home if entry is not None and entry.given is not None else name
+    return entry.home if entry is not None and entry.thing is not None else name
 
 
 def part_of_user(kind: str, name: str, values: Mapping[str, object], base: type[T]) -> T | None:
@@ -242,11 +242,11 @@ def construct(
         give = ", ".join(f"{place}.{name}".lstrip(".") for name in missing)
         raise InputError(f"{what} needs {', '.join(missing)}; give {give}")
     try:
-        made = make(**{name: x for name, x in values.items() if name in names})
+        result = make(**{name: x for name, x in values.items() if name in names})
     except BipedError:
         raise
     except (Exception, SystemExit) as error:  # whatever a class of the user's may raise
         raise InputError(f"{what} could not be made: {type(error).__name__}: {error}") from error
-    if not isinstance(made, kind):
-        raise InputError(f"{what} made a {type(made).__name__}, expected a {kind.__name__}")
-    return made
+    if not isinstance(result, kind):
+        raise InputError(f"{what} made a {type(result).__name__}, expected a {kind.__name__}")
+    return result

@@ -107,9 +107,9 @@ def as_line(thing: Any) -> str:
 
 def call_text(name: str, fields: Iterable[tuple[str, str]]) -> str:
     """Text Name(field=text, ...) from pairs (field, text), cut off after `LONGEST` characters."""
-    told = ", ".join(f"{key}={text}" for key, text in fields)
+    inside = ", ".join(f"{key}={text}" for key, text in fields)
     room = LONGEST - len(name) - 2  # for the parentheses
-    return f"{name}({told if len(told) <= room else told[: room - 3] + '...'})"
+    return f"{name}({inside if len(inside) <= room else inside[: room - 3] + '...'})"
 
 
 def short(x: Any) -> str:

@@ -11,7 +11,6 @@ numbers that each of them leaves (`BatchWalk`).
 Return maps (`analysis`) ask for `strides`, studies and benchmarks for `simulate_many`.
 """
 
-import os
 from collections import deque
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -29,6 +28,7 @@ from biped_adrc.control.base import Measurement, has_own_class
 from biped_adrc.core.checks import Checked, PositiveInt, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.part import constant
+from biped_adrc.core.processes import cores
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array
@@ -156,7 +156,7 @@ def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator
     >>> [walk.impacts for walk in ba.simulate_many(cases)]
     [2, 2]
     """
-    count = threads if threads is not None else os.cpu_count() or 1
+    count = threads if threads is not None else cores()
     if count < 1:
         raise InputError(f"the batch asks for {count} threads, expected at least 1")
     return _in_order(iter(cases), count)
@@ -200,14 +200,14 @@ def walks_of(runs: Sequence[Callable[[], BatchWalk]]) -> Callable[[], list[Batch
     firsts = [next(iter(team.values())) for team in teams]
     codes = [Lanes.of(first.compiled, bool(first.read)) for first in firsts]
 
-    def made() -> list[BatchWalk]:
+    def walks_in_order() -> list[BatchWalk]:
         walks = dict[int, BatchWalk]()
         for lanes, team in zip(codes, teams, strict=True):
             beside = _side_by_side(lanes, [run.going() for run in team.values()])
             walks |= zip(team, beside, strict=True)
         return [walks[i] if i in walks else run() for i, run in enumerate(runs)]
 
-    return made
+    return walks_in_order
 
 
 class Preparation:
@@ -420,14 +420,14 @@ def strides(
     """
     # 1: each ends after one impact
     going = [_Going(compiled, x, m, m.start + t_end, 1) for x, m in starts]
-    threads = os.cpu_count() or 1
+    threads = cores()
     beside = len(starts) >= SIDE_BY_SIDE and Lanes.key(compiled, False) is not None
     lanes = Lanes.of(compiled, False) if beside else None
     size = max(1, -(-len(going) // threads))
     parts = [going[i : i + size] for i in range(0, len(going), size)]
 
-    def made(part: Sequence[_Going]) -> list[BatchWalk]:
+    def to_end(part: Sequence[_Going]) -> list[BatchWalk]:
         return _side_by_side(lanes, part) if lanes else [one.to_end() for one in part]
 
     with ThreadPoolExecutor(threads) as pool:
-        return [*chain(*pool.map(made, parts))]
+        return [*chain(*pool.map(to_end, parts))]

@@ -123,7 +123,7 @@ class CompiledBiped(Biped):
     """The same robot in closed form, whose methods are traced; never None after `compiled_biped`."""
 
     @cached_property
-    def _made(self) -> dict[str, Callable[..., Any]]:
+    def _methods(self) -> dict[str, Callable[..., Any]]:
         """Methods of `robot` in machine code, by name; `_called` adds each one when it is called first."""
         return {}
 
@@ -133,9 +133,9 @@ class CompiledBiped(Biped):
         # `_angles` checks a vector; zeros: an example of the arguments, by which `in_code` learns their
         # shapes
         arguments = (*map(self._angles, arguments[:2]), *arguments[2:])
-        if method not in self._made:
-            self._made[method] = in_code(self.robot, method, *map(np.zeros_like, arguments))
-        return self._made[method](*arguments)
+        if method not in self._methods:
+            self._methods[method] = in_code(self.robot, method, *map(np.zeros_like, arguments))
+        return self._methods[method](*arguments)
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15), such as kappa and xi of q_b'' = kappa u + xi for the joints q_b with motors,

@@ -102,11 +102,11 @@ class Gait(Frozen):
 
     def check_robot(self, biped: Biped) -> Self:
         """The gait itself. Raises GaitError if it was made for another robot or preset."""
-        made, given = (self.robot, self.preset), (biped.description.name, biped.preset)
-        if made != given:
+        ours, this = (self.robot, self.preset), (biped.description.name, biped.preset)
+        if ours != this:
             raise GaitError(
-                f"gait '{self.name}' was made for robot '{made[0]}', preset '{made[1]}', and this is "
-                f"'{given[0]}', '{given[1]}'; take a gait of this robot, or say gait.other_robot = true"
+                f"gait '{self.name}' was made for robot '{ours[0]}', preset '{ours[1]}', and this is "
+                f"'{this[0]}', '{this[1]}'; take a gait of this robot, or say gait.other_robot = true"
             )
         return self
 

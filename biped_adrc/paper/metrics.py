@@ -133,7 +133,7 @@ def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
     return AtTwoSteps(of(*found), of(*(x.half for x in found)))
 
 
-def made(o: Outcome) -> AtTwoSteps:
+def share_of_impacts(o: Outcome) -> AtTwoSteps:
     """Share [1] of the impacts asked for that the walk makes."""
     return at_two(lambda x: x.impacts / x.run.run.impacts, o)  # made over asked for
 
@@ -257,7 +257,7 @@ def longest(o: MemberOutcome) -> AtTwoSteps:
 def reached(start: SlowStart) -> AtTwoSteps:
     """Share [1] of the impacts asked for that are made, under the controller that makes more of them."""
     # zip: the shares of both at the integration step used, then those at half of it
-    return AtTwoSteps(*map(max, zip(*map(made, start.outcomes.values()), strict=True)))
+    return AtTwoSteps(*map(max, zip(*map(share_of_impacts, start.outcomes.values()), strict=True)))
 
 
 def longest_step(multiplier: float) -> float:

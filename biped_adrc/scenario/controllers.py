@@ -70,10 +70,10 @@ def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] 
         "torque_limit": s.hardware.torque_limit,
         "stones": stones,
     }
-    return _made("controller", s.controller, known)
+    return _controller("controller", s.controller, known)
 
 
-def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
+def _controller(place: str, c: ControllerRecord, known: Arguments) -> Controller:
     """The controller of a record c, with its wrappers; place: dotted name of the record, for messages.
 
     known: arguments that the scenario has for every constructor, which takes those that it names. A constructor
@@ -88,7 +88,7 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
     if c.inner is not None and not outer:
         raise Misfit(f"{place}.inner", f"{what} is no outer loop, and takes none")
     if outer:
-        inner = _made(f"{place}.inner", c.inner or ControllerRecord(), known)
+        inner = _controller(f"{place}.inner", c.inner or ControllerRecord(), known)
         values, used = {**c.own, "inner": inner}, set(accepted)
     else:
         values, used = _values(what, make, c, entry.defaults)

@@ -117,10 +117,10 @@ class Reader:
 
     records: list[PartRecord]
     """The records that a `Writer` left."""
-    _made: dict[int, object] = field(default_factory=dict)
+    _objects: dict[int, object] = field(default_factory=dict)
     """Place of a record -> the object made of it, so that an object that is used twice is one again."""
 
-    def made(self, x: object) -> Any:
+    def value(self, x: object) -> Any:
         """The value that `Writer.plain` wrote as x: an array, list, tuple, mapping and so on by its one key,
         an object from its record, anything else as it is.
 
@@ -129,21 +129,21 @@ class Reader:
         """
         match x:
             case {"part": int(i)}:
-                if i not in self._made:
+                if i not in self._objects:
                     home, values = self.records[i]["class"], self.records[i].get("values")
                     if values is None:
                         raise MissingPart(home)
-                    inner = {name: self.made(y) for name, y in values.items()}
-                    self._made[i] = _class(home)(**inner)
-                return self._made[i]
+                    inner = {name: self.value(y) for name, y in values.items()}
+                    self._objects[i] = _class(home)(**inner)
+                return self._objects[i]
             case {"array": values, "shape": shape, "dtype": kind}:
                 return np.array(values, dtype=np.dtype(kind)).reshape(shape)
             case {"map": values}:
-                return {key: self.made(inner) for key, inner in values.items()}
+                return {key: self.value(inner) for key, inner in values.items()}
             case {"list": values}:
-                return [self.made(inner) for inner in values]
+                return [self.value(inner) for inner in values]
             case {"tuple": values}:
-                return tuple(self.made(inner) for inner in values)
+                return tuple(self.value(inner) for inner in values)
             case {"enum": (home, name)}:
                 return _class(home)[name]
             case {"complex": (real, imaginary)}:

@@ -98,7 +98,7 @@ def load_walk(path: Path | str) -> Walk:
         names = [k for k in beside if k.startswith("signal.")]
         arrays = {k.removeprefix("signal."): beside[k] for k in names}
         remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
-        gait, scenario = reader.made(record["gait"]), None
+        gait, scenario = reader.value(record["gait"]), None
         # no scenario, or one that names files or classes which are not at hand: the walk has none then
         with suppress(KeyError, TypeError, InputError):
             scenario = _scenario(trajectory.settings)
@@ -142,7 +142,7 @@ def _walker(reader: Reader, record: PartRecord) -> Walker:
     values = dict[str, Any]()
     for name, x in record["values"].items():
         try:
-            values[name] = reader.made(x)
+            values[name] = reader.value(x)
         except MissingPart as missing:  # its class is the user's
             if name in STAND_INS:
                 values[name] = STAND_INS[name](missing.home)

@@ -189,5 +189,5 @@ def trial_of(s: Scenario) -> Trial:
     walker, mode = build(s, scene), Mode(s.run.first_step)
     # methods_of gives the method and, at [1], a finer step where a push switches: None in sampled time
     curve = scene.walked.constraint
-    made = Case(walker, q, v, methods_of(s.run, walker)[0], s.run.impacts, mode, curve)
-    return Trial(s, scene, made, soft_loop(s, walker))
+    case = Case(walker, q, v, methods_of(s.run, walker)[0], s.run.impacts, mode, curve)
+    return Trial(s, scene, case, soft_loop(s, walker))

@@ -116,8 +116,8 @@ def run_trials(records: Sequence[Values], aside: bool = False) -> list[WalkRow]:
         some = trials[i : i + size]
         with _PREPARING:
             runs = _each(prepared, some)
-            made = walks_of([x if isinstance(x, Ready) else partial(_walked, x) for x in runs])
-        pairs = zip(some, made(), strict=True)
+            walks = walks_of([x if isinstance(x, Ready) else partial(_walked, x) for x in runs])
+        pairs = zip(some, walks(), strict=True)
         rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]
     return rows
 

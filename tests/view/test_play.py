@@ -130,7 +130,7 @@ for (let k = 0; k < 700; k += 1) {
   if (k === 100) play.push(push);
   if (k === 400) play.pull({ link: "torso", at: [0, 0.3], anchor: [walk.foot[0] + 0.3, 1.4] });
   if (k === 600) play.let_go();
-  if (k === 699) play.made = play.walking.map(() => []);
+  if (k === 699) play.rows = play.walking.map(() => []);
   if (play.spring) {
     const { place, hand } = play.pulled();
     springs.push([...walk.q, ...walk.v, ...walk.foot, ...play.spring.anchor, ...place, ...hand.force]);
@@ -430,9 +430,9 @@ play.begin(walk, null);
 let pushed = !push, error = 0, torque = 0;
 while (play.walks && play.leader.t < 1.6) {
   if (!pushed && play.leader.t >= after) { play.push(push); pushed = true; }
-  play.made = [[]];
+  play.rows = [[]];
   play.sample();
-  for (const row of play.made[0]) {
+  for (const row of play.rows[0]) {
     torque = Math.max(torque, row.torque);
     if (row.t > 0.6) error = Math.max(error, ...row.error.map(Math.abs));
   }

@@ -1,9 +1,9 @@
 // Choices, buttons and sliders: each tells the walks one thing, and shows what walks now.
 let known = []; // names of the walk and of its ghost
 const names = Object.keys(scene.numbers.walks);
-function showNames(given) {
-  if (given[0] !== known[0]) showSliders(given[0]);
-  known = given;
+function showNames(current) {
+  if (current[0] !== known[0]) showSliders(current[0]);
+  known = current;
   element("walk").value = known[0];
   element("ghost").value = known.length > 1 ? known[1] : "";
 }
@@ -90,18 +90,18 @@ function showSliders(name) {
 function sliderOf(name, one) {
   const row = document.createElement("div"), words = one.name.split(".").at(-1).replace("_limit", " limit");
   const label = (one.name === FRICTION ? "joint friction" : words) + (one.unit ? " [" + one.unit + "]" : "");
-  const [text, range, field, given] = ["span", "input", "input", "button"].map((tag) => document.createElement(tag));
+  const [text, range, field, reset] = ["span", "input", "input", "button"].map((tag) => document.createElement(tag));
   const value = () => (one.name in tunedOf(name) ? tunedOf(name)[one.name] : one.value);
   text.textContent = label;
   Object.assign(range, { type: "range", min: 0, max: one.table.length ? one.table.length - 1 : WAYS });
   Object.assign(field, { type: "number", step: "any", placeholder: "own" });
-  Object.assign(given, { textContent: "↺", title: "as given" });
-  for (const part of [range, field, given]) part.setAttribute("aria-label", label + (part === given ? " as given" : ""));
+  Object.assign(reset, { textContent: "↺", title: "as given" });
+  for (const part of [range, field, reset]) part.setAttribute("aria-label", label + (part === reset ? " as given" : ""));
   const show = () => {
     const x = value();
     range.value = x === null ? Number(range.max) / 2 : placeOn(one, x);
     field.value = x === null ? "" : short(one.scale * x);
-    given.disabled = !(one.name in tunedOf(name));
+    reset.disabled = !(one.name in tunedOf(name));
   };
   const tune = (x) => {
     // the ghost has the same robot and ground
@@ -110,14 +110,14 @@ function sliderOf(name, one) {
     show();
   };
   range.oninput = () => tune(valueOn(one, range.valueAsNumber));
-  given.onclick = () => tune(undefined);
+  reset.onclick = () => tune(undefined);
   field.onchange = () => {
     const x = field.valueAsNumber / one.scale, inside = x >= one.low && x <= one.high, { table } = one;
     if (inside) tune(table.length ? table.reduce((a, b) => (Math.abs(b - x) < Math.abs(a - x) ? b : a)) : x);
     else complain(label + " is " + (field.value || "no number") + ", expected " + short(one.scale * one.low) + " to " + short(one.scale * one.high));
     show();
   };
-  row.append(text, range, field, given);
+  row.append(text, range, field, reset);
   show();
   return row;
 }

@@ -30,9 +30,9 @@ async function startMachine() {
   for (const [name, walk] of Object.entries(numbers.walks)) kinds[name] = walk.variants.map((one) => new Kind(one));
 }
 // a vector in the module's memory
-function vector(Cells, given) {
-  const found = new Cells(machine.memory.buffer, machine.free, typeof given === "number" ? given : given.length);
-  if (typeof given !== "number") found.set(given);
+function vector(Cells, values) {
+  const found = new Cells(machine.memory.buffer, machine.free, typeof values === "number" ? values : values.length);
+  if (typeof values !== "number") found.set(values);
   machine.free += 8 * found.length;
   return found;
 }
@@ -56,13 +56,13 @@ function placed({ re, im }, q) {
 
 // the block of one structure of a walk in the module's memory, used by one walk at a time: `Walk` keeps what changes
 class Kind {
-  constructor(told) {
-    Object.assign(this, told, { tuned: null });
-    this.cells = vector(BigInt64Array, new BigInt64Array(unpacked(told.cells)));
+  constructor(message) {
+    Object.assign(this, message, { tuned: null });
+    this.cells = vector(BigInt64Array, new BigInt64Array(unpacked(message.cells)));
     this.address = this.cells.byteOffset;
-    told.pointers.forEach((k) => { this.cells[k] += BigInt(this.address); });
+    message.pointers.forEach((k) => { this.cells[k] += BigInt(this.address); });
     this.numbers = new Float64Array(this.cells.buffer, this.address, this.cells.length);
-    this.given = this.numbers.slice();
+    this.defaults = this.numbers.slice();
     this.values = this.row("values", 3);
     this.x = this.row("x0", this.nx);
     this.seen = vector(Float64Array, SEEN);
@@ -89,7 +89,7 @@ class Kind {
       const s = tuned[name], k = table.indexOf(s);
       for (const [cell, form] of cells) {
         const [a, b, power] = form;
-        if (s === undefined) this.numbers[cell] = this.given[cell];
+        if (s === undefined) this.numbers[cell] = this.defaults[cell];
         else this.numbers[cell] = table.length ? form[k] : a + b * (power ? s ** power : Math.tan(s));
       }
     }

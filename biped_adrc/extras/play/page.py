@@ -107,7 +107,7 @@ def page(
             raise InputError(f"the walk '{name}' to choose or as a ghost: {error}") from error
     # [0] is the walk itself, behind which its variants follow; laid_out: its scene at the start
     scene = laid_out(walks[first][0])
-    given = settings(walks[first][0], scene) | {
+    content = settings(walks[first][0], scene) | {
         "tour": stations,
         "numbers": page_numbers(walks) | {"first": first, "ghost": next(iter(others), None)},
     }
@@ -116,7 +116,7 @@ def page(
     legend = captions({"walk": scene})[1:]
     if scenario.hardware.torque_limit is None:
         legend.append(("", "motors without a torque limit: set hardware.torque_limit for one"))
-    return with_viewer("play", given, _HERE, title=title, captions=legend, style="play.css")
+    return with_viewer("play", content, _HERE, title=title, captions=legend, style="play.css")
 
 
 def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
@@ -186,11 +186,11 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     """
     biped = walk.walker.plant
     # Clip(): the usual choice of time, frames and camera
-    given = scene_settings({"walk": scene, "ghost": scene}, Clip())
+    content = scene_settings({"walk": scene, "ghost": scene}, Clip())
     robot = "meshcat/robots/0"  # the walk; its ghost is robots/1
     links = [(f"{robot}/{path}", link) for path, link in draw.visual_links(biped.tree)]
-    return given | {
-        "commands": [*given["commands"], *hand_commands()],
+    return content | {
+        "commands": [*content["commands"], *hand_commands()],
         "links": links,
         "hand": {"arrow": "meshcat/hand/arrow", "line": "meshcat/hand/line"},
         "robot": {

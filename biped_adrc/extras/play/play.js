@@ -56,10 +56,10 @@ function showFrame(frame) {
   page.frames += 1;
 }
 // what keys, fields and the mouse ask of the walks, such as { do: "push", torque: { q1: 30 } }
-function send({ do: word, ...given }) {
+function send({ do: word, ...values }) {
   if (play === null) return;
   try {
-    play[word](given);
+    play[word](values);
   } catch (error) {
     complain(error.message);
   }

@@ -12,7 +12,7 @@ class Play {
   begin(name, ghost) {
     this.walking = [name, ghost].filter((x) => x !== null && x !== undefined).map((x) => Walk.begun(x));
     Object.assign(this, { samples: 0, hand: null, ends: Infinity, spring: null, past: [], place: null, log: [], drawn: [], news: true });
-    this.made = this.walking.map(() => []);
+    this.rows = this.walking.map(() => []);
     this.keep(true);
     showNames(this.walking.map((walk) => walk.name));
   }
@@ -41,7 +41,7 @@ class Play {
   move(k) {
     const before = this.walking[k], after = before.sampled(this.hand);
     this.walking[k] = after;
-    this.made[k].push(...after.rows);
+    this.rows[k].push(...after.rows);
     // the links have changed their names: the spring stays at the same metal
     if (k === 0 && this.spring && after.step !== before.step) this.spring.link = numbers.twins[this.spring.link] || this.spring.link;
   }
@@ -69,7 +69,7 @@ class Play {
   // to an instant of the timeline; what was after it is forgotten with the next sample
   scrub({ place }) {
     const { samples, walking } = this.past[place];
-    Object.assign(this, { place, samples, walking: [...walking], made: walking.map(() => []) });
+    Object.assign(this, { place, samples, walking: [...walking], rows: walking.map(() => []) });
     this.let_go();
   }
   forget() {
@@ -133,9 +133,9 @@ class Play {
     this.reached += Math.min(1, passed) * ((this.leader.t - begin) / passed - this.reached);
   }
   frame() {
-    const walks = this.walking.map((walk, k) => ({ ...pose(this.upright(walk, k)), ...told(this.made[k]), ending: walk.ending }));
+    const walks = this.walking.map((walk, k) => ({ ...pose(this.upright(walk, k)), ...rowsOf(this.rows[k]), ending: walk.ending }));
     const { paused, rate: asked, reached, past, place } = this, { limits } = this.walking[0];
-    this.made = this.walking.map(() => []);
+    this.rows = this.walking.map(() => []);
     this.news = false;
     const timeline = [place === null ? past.length - 1 : place, past.length - 1];
     return { t: this.leader.t, paused, rate: asked, reached, limits, walks, timeline, hand: this.acting() };
@@ -178,12 +178,12 @@ function pose(walk) {
   };
 }
 // what the page plots, of at most ROWS samples, and the worst of all
-function told(made) {
-  if (!made.length) return { rows: [], worst: null };
-  const count = Math.min(ROWS, made.length);
-  const rows = Array.from({ length: count }, (_, k) => made[Math.round((k + 1) * made.length / count) - 1]);
-  const friction = made.some((x) => x.friction === null) ? null : Math.max(...made.map((x) => x.friction));
-  const normal = Math.min(...made.map((x) => x.normal)), torque = Math.max(...made.map((x) => x.torque));
+function rowsOf(instants) {
+  if (!instants.length) return { rows: [], worst: null };
+  const count = Math.min(ROWS, instants.length);
+  const rows = Array.from({ length: count }, (_, k) => instants[Math.round((k + 1) * instants.length / count) - 1]);
+  const friction = instants.some((x) => x.friction === null) ? null : Math.max(...instants.map((x) => x.friction));
+  const normal = Math.min(...instants.map((x) => x.normal)), torque = Math.max(...instants.map((x) => x.torque));
   return { rows, worst: { normal, friction, torque } };
 }
 

@@ -98,7 +98,7 @@ class StepLimits(Checked, Shown):
         mu = d.friction_coefficient if self.friction is None else self.friction
         own = {"friction": mu, "impulse_friction": mu, "torque": d.peak_torque}
         # a clearance of None is a value: no clearance is required
-        given = {name: x for name, x in vars(self).items() if x is not None or name == "clearance"}
+        values = {name: x for name, x in vars(self).items() if x is not None or name == "clearance"}
         ranges, rates = {**d.ranges, **self.ranges}, dict[str, float]()
         # a coordinate is the angle of a joint of one leg, and in the next step of its twin in the other leg, so
         # both of its URDF joints (`sides`) limit it; FREELY is the range from -inf to inf
@@ -109,7 +109,7 @@ class StepLimits(Checked, Shown):
                 ranges[joint] = ends
             if (rate := min(side.speed for side in sides)) < math.inf:
                 rates[joint] = rate
-        return RobotLimits(**{**own, **given, "ranges": ranges, "rates": rates})
+        return RobotLimits(**{**own, **values, "ranges": ranges, "rates": rates})
 
 
 @dataclass(frozen=True)
