@@ -3,8 +3,8 @@
 `blocks(text)` are the code blocks of a page, `execute(block, ...)` runs or parses one of them. A helper raises
 AssertionError for a block that nothing runs.
 
-Blocks of one document run in order and share a namespace and a temporary folder, in which `tests` is
-that of the checkout. What a fence says of its block:
+Blocks of one document run in order and share a namespace and a temporary folder, in which `tests` and
+`examples` are those of the checkout. What a fence says of its block:
 
     python          executed; a first line `# name.py` writes it to that file instead
     console         `biped-adrc` and `python FILE` are run; those of LARGE by `make check`
@@ -159,7 +159,8 @@ def execute(block: Block, names: dict[str, object], folder: Path, document: Path
 def test_every_block_runs(document, tmp_path, monkeypatch):
     """Blocks run in order in one namespace, and modules that they wrote are forgotten, since the next page
     may write others of the same name."""
-    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    for name in ("tests", "examples"):
+        (tmp_path / name).symlink_to(ROOT / name)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("BROWSER", "true")  # a page that is shown is not looked at
     monkeypatch.syspath_prepend(str(tmp_path))

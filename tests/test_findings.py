@@ -128,10 +128,10 @@ def test_the_numbers_of_the_readme_are_those_of_the_page():
     """Its first question with the upper end of the interval, and how many walks are feasible."""
     words = " ".join((comparison.ROOT / "README.md").read_text().split())
     answer = numbers.answers()[0][1]
-    assert f"leaves **{answer.value:.2g} (at most {answer.high:.2g})** of NPD's tracking" in words
+    assert f"leaves **{answer.value:.2g} (95 %: at most {answer.high:.2g})** of NPD's" in words
     at = ("rabbit", "v0.6", "tracking")
     adrc, npd = (numbers.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
-    assert f"ADRC makes {adrc} of 20 walks feasibly, NPD {npd}. This proves no difference." in words
+    assert f"ADRC makes {adrc} of 20 walks feasibly, NPD {npd}. This is not yet a proof." in words
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):

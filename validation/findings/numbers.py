@@ -232,7 +232,8 @@ def stops() -> Names:
         untuned=len(untuned),
         asked=", ".join(dict.fromkeys(some)) or "none",
         gaining=sum(x >= ENOUGH for x in gains.values()),
-        sides="; ".join(f"{', '.join(at)} by {gains[at]:.1%}" for at in still) or "none",
+        sides="; ".join(f"{at[3]} ({', '.join(at[:3])}) by {gains[at]:.1%}" for at in still)
+        or "none",
         asked_count=len({*sides}),
     )
 
@@ -261,7 +262,7 @@ def of_all(at: Place) -> str:
 
 def small_and_robust(at: Place) -> tuple[str, str]:
     """The search with the least error of those at a place that walk 10 mm as often as the best one of a
-    controller: "m = 1 #2 walks 18", and its error.
+    controller: "one m = 1 makes 18", and its error.
     """
     least = fine(at, "10 mm")
     found = []
@@ -270,12 +271,12 @@ def small_and_robust(at: Place) -> tuple[str, str]:
         walked, pushed = (side_of(here, condition).errors for condition in ("10 mm", PUSH))
         counts = np.isfinite(walked).sum(axis=1)
         found += [
-            (float(np.median(e)), f"{controller} #{i} walks {n}")
-            for i, (n, e) in enumerate(zip(counts, pushed, strict=True), 1)
+            (float(np.median(e)), f"one {controller} makes {n}")
+            for n, e in zip(counts, pushed, strict=True)
             if n >= least
         ]
     e, words = min(found)
-    return words.removeprefix("ADRC "), f"{1e3 * e:.2g} mrad"
+    return words.replace("ADRC ", ""), f"{1e3 * e:.2g} mrad"
 
 
 def place_of(row: Mapping[str, str]) -> Place:
