@@ -232,7 +232,7 @@ def stops() -> Names:
         untuned=len(untuned),
         asked=", ".join(dict.fromkeys(some)) or "none",
         gaining=sum(x >= ENOUGH for x in gains.values()),
-        sides="; ".join(f"{at[3]} ({', '.join(at[:3])}) by {gains[at]:.1%}" for at in still)
+        sides="; ".join(f"{at[3]} ({', '.join(at[:3])}) by {100 * gains[at]:.1f} %" for at in still)
         or "none",
         asked_count=len({*sides}),
     )
