@@ -232,10 +232,15 @@ def stops() -> Names:
         untuned=len(untuned),
         asked=", ".join(dict.fromkeys(some)) or "none",
         gaining=sum(x >= ENOUGH for x in gains.values()),
-        sides="; ".join(f"{at[3]} ({', '.join(at[:3])}) by {100 * gains[at]:.1f} %" for at in still)
+        sides="; ".join(f"{at[3]} ({named(at)}) by {100 * gains[at]:.1f} %" for at in still)
         or "none",
         asked_count=len({*sides}),
     )
+
+
+def named(at: Place) -> str:
+    """A place in words, such as "behind encoders, v0.6, ground"."""
+    return ", ".join(("behind encoders" if at[0] == "rabbit" else "exact", *at[1:3]))
 
 
 def pairs(one: Place, other: Place) -> list[float]:

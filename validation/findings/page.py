@@ -112,6 +112,7 @@ def fields() -> dict[str, Any]:
     every_pair = pairs((*rabbit, "m = 1"), (*rabbit, "NPD"))
     of_pid = pairs((*rough, "m = 1"), (*rough, "PID"))
     plans = [PLAN["search"] | more for more in ({}, *PLAN["search_more"].values())]
+    in_all = [x["budget"] << x["doublings"] for x in plans]
     walked_10, so_tuned = (
         [
             fine((hardware, "v0.6", tuning, c), "10 mm")
@@ -150,7 +151,7 @@ def fields() -> dict[str, Any]:
         "limit": Names(least=min(fine(place_of(r), comparison.LATER) for r in best)),
         "range": Names(
             low=min(walked_10),
-            tracking=max(so_tuned),
+            tracking_words=f"at most {max(so_tuned)}" if any(so_tuned) else "none",
             rough_least=min(on_20["rough"]),
             level20=max(on_20["v0.6"]),
         ),
@@ -202,7 +203,8 @@ def fields() -> dict[str, Any]:
         "plan": Names(
             low=min(x["budget"] for x in plans),
             more=max(x["budget"] for x in plans),
-            most=max(x["budget"] << x["doublings"] for x in plans),
+            most=max(in_all),
+            least=min(in_all),
         ),
         "orders": Names(
             first=orders()["m = 1", "push, 80 N m"][1],
