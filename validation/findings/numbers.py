@@ -232,8 +232,8 @@ def stops() -> Names:
         untuned=len(untuned),
         asked=", ".join(dict.fromkeys(some)) or "none",
         gaining=sum(x >= ENOUGH for x in gains.values()),
-        sides="; ".join(f"{at[3]} ({named(at)}) by {100 * gains[at]:.1f} %" for at in still)
-        or "none",
+        sides="; ".join(f"{at[3]} ({named(at)}) did, by {100 * gains[at]:.1f} %" for at in still)
+        or "none did",
         asked_count=len({*sides}),
     )
 

@@ -205,6 +205,7 @@ def fields() -> dict[str, Any]:
             more=max(x["budget"] for x in plans),
             most=max(in_all),
             least=min(in_all),
+            next=max(x for x in in_all if x < max(in_all)),
         ),
         "orders": Names(
             first=orders()["m = 1", "push, 80 N m"][1],
