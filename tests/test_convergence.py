@@ -88,7 +88,10 @@ def test_two_steps_have_to_agree(half, holds):
     ("half", "word"),
     [
         ((1.001e-3, "COMPLETED", 2), "rad (1.001e-03 at half the step)"),
-        ((2e-3, "COMPLETED", 2), "the step decides it; shorten it, as --set x=1"),
+        (
+            (2e-3, "COMPLETED", 2),
+            "the integration step decides its digits; shorten it, as --set x=1",
+        ),
         ((1e-3, "FELL", 1), "ends as FELL after 1 impacts: shorten the step, as --set x=1"),
     ],
 )

@@ -160,6 +160,27 @@ def test_a_controller_that_keeps_its_state_in_itself_is_refused(engine, where, b
         ba.walk(ba.Walker(biped, controller, timing=TIMINGS["ticks"]), gait, 1, engine=engine)
 
 
+@dataclass(frozen=True)
+class WithoutTorque(ba.Controller):
+    """Its `flow` has no argument u."""
+
+    def output(self, s, m):
+        return np.zeros(4)
+
+    def initial_state(self, m):
+        return np.zeros(4)
+
+    def flow(self, s, m):
+        return s
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_method_with_other_arguments_is_refused(engine, biped, gait):
+    said = r"^WithoutTorque.flow \(test_handed_out.py:\d+\): too many .*, expected flow\(self, s, m, u\)$"
+    with pytest.raises(InputError, match=said):
+        ba.walk(ba.Walker(biped, WithoutTorque()), gait, 1, engine=engine)
+
+
 class Counts(ba.Controller):
     """Counts its calls in itself; the count acts from call 50 on alone."""
 

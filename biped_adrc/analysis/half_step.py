@@ -66,4 +66,4 @@ def error_text(shorter: str, end: WalkEnd, half: WalkEnd) -> str:
         return f"{text}; {ends}: shorten the step, as {shorter}"
     if errors.converged(PEAK_RESOLUTION) or max(errors) < NEGLIGIBLE:
         return text
-    return f"{text}: the step decides it; shorten it, as {shorter}"
+    return f"{text}: the integration step decides its digits; shorten it, as {shorter}"

@@ -71,13 +71,16 @@ def robot_check(
     sets: list[str] | None = None,
     plot: Path | None = None,
 ) -> None:
-    """Read a URDF or MJCF as a biped: say what was read, assumed and left out, draw it, check the laws of
-    mechanics.
+    """Read a URDF or MJCF as a biped, or a robot.toml: say what was read, assumed and left out, draw it, check
+    the laws of mechanics.
 
     Exit code 0 when every law holds, 1 when one does not, 3 when the file is refused.
     """
+    from biped_adrc.model.robot_import.import_robot import of_record
+
     plot = target(plot or Path(f"{file.stem}.png"), FIGURES, (file,))
-    derived = _derived(file, feet, actuated, torque, sets)
+    record = file.suffix == ".toml" and not any((feet, actuated, torque, sets))
+    derived = of_record(file) if record else _derived(file, feet, actuated, torque, sets)
     _explain(derived)
     from biped_adrc.view.from_the_side.check_figure import check_figure
 

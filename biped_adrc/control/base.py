@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from inspect import signature
 from typing import Any, ClassVar, NamedTuple, NoReturn, Self
 
 import numpy as np
@@ -234,7 +235,7 @@ class Controller(Part):
 
     def _only_sampled(self) -> NoReturn:
         """Raise InputError: this controller works in sampled time only."""
-        how = "give timing=SampledTime(period), or hardware.period of a scenario"
+        how = "give timing=SampledTime(period), or hardware.period of a scenario (--period)"
         self._has_no("form but one in sampled time only", how)
 
     def _has_no(self, what: str, how: str) -> NoReturn:
@@ -263,6 +264,10 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
         controller = getattr(controller, "inner", None)
 
 
+ARGUMENTS = {"output": 2, "flow": 3, "correct": 2, "predict": 3, "jump": 3}
+"""Number of arguments of the methods that a user's controller may write."""
+
+
 def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool) -> None:
     """Check a controller's methods at the start of a run, in state s at m; sampled: whether at ticks.
 
@@ -272,6 +277,13 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     """
     own, output = has_own_class(controller), getattr(controller, "measured_output", None)
     kept = dict(vars(controller))
+    for name, count in ARGUMENTS.items() if own else ():
+        try:
+            signature(getattr(controller, name)).bind(*range(count))
+        except TypeError as error:
+            where = f"{spoken(controller)}.{name}{line_of(controller, name)}"
+            takes = ", ".join(signature(getattr(Controller, name)).parameters)
+            raise InputError(f"{where}: {error}, expected {name}({takes})") from error
     if own and output:  # an observer's estimates have the shapes of what it measures
         part: Any = vars(controller)["observer"]
         returned_tree(part.estimate(s), Layout.of(output(m)), part, "estimate", finite=False)

@@ -106,7 +106,7 @@ class Gait(Frozen):
         if ours != this:
             raise GaitError(
                 f"gait '{self.name}' was made for robot '{ours[0]}', preset '{ours[1]}', and this is "
-                f"'{this[0]}', '{this[1]}'; take a gait of this robot, or say gait.other_robot = true"
+                f"'{this[0]}', '{this[1]}'; take that robot (--robot), or say gait.other_robot = true"
             )
         return self
 

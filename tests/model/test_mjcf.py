@@ -4,7 +4,6 @@ The fixture own is the file of a robot of six joints, with soles, whose text is 
 robot: its result has the biped, notes on what was read or left out, and the laws that it breaks.
 """
 
-import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import gymnasium
@@ -85,36 +84,6 @@ def test_inertia_and_bias_are_those_of_mujoco(own):
             np.testing.assert_allclose(biped.inertia(q), D, rtol=0, atol=1e-9 * np.max(D))
             size = np.max(np.abs(Omega))
             np.testing.assert_allclose(biped.bias(q, v), Omega, rtol=0, atol=1e-9 * size)
-
-
-def test_places_in_the_world_are_places_in_the_bodies(tmp_path):
-    """An old Walker2d: each place in a body is the sum of those of the bodies above it and its own. With a body
-    that is turned (euler) this sum is wrong, and the file is refused.
-    """
-    root = ET.fromstring(WALKER2D.read_text())
-
-    def raise_by(body, above):
-        place = above + np.array(body.get("pos").split(), dtype=float)
-        for e in (body, *(x for x in body if x.tag in ("joint", "geom"))):
-            own = np.array(e.get("pos", "0 0 0").split(), dtype=float)
-            e.set("pos", " ".join(map(repr, (place if e is body else place + own).tolist())))
-        for below in body.findall("body"):
-            raise_by(below, place)
-
-    raise_by(root.find("worldbody/body"), np.zeros(3))
-    root.find("compiler").set("coordinate", "global")
-    old = tmp_path / "old.xml"
-    old.write_text(ET.tostring(root, encoding="unicode"))
-    one, own = derive(WALKER2D).biped, derive(old).biped
-    random = np.random.default_rng(5)
-    for _ in range(3):
-        q, v = random.uniform(-np.pi, np.pi, 5), random.normal(0.0, 3.0, 5)
-        np.testing.assert_allclose(own.inertia(q), one.inertia(q), rtol=0, atol=1e-12)
-        np.testing.assert_allclose(own.bias(q, v), one.bias(q, v), rtol=0, atol=1e-10)
-        np.testing.assert_allclose(own.swing_foot(q), one.swing_foot(q), rtol=0, atol=1e-12)
-    old.write_text(old.read_text().replace('name="leg"', 'name="leg" euler="0 1 0"'))
-    with pytest.raises(ModelError, match="global coordinates"):
-        derive(old)
 
 
 def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path):

@@ -8,6 +8,7 @@ angles and rates; close compares to 1e-10.
 
 import math
 import re
+import xml.etree.ElementTree as ET
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -738,6 +739,23 @@ def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path, monkeypa
     assert robot("new", path, "--out", folder, "--torque", 80).exit_code == 0
     assert ba.Biped.load(folder / "robot.toml").description.peak_torque == 80.0
     assert isinstance(robot("new", path, "--out", folder).exception, OutputError)
+
+
+def test_the_laws_check_a_record_too(urdf, tmp_path, monkeypatch):
+    """A record that `robot new` wrote holds. With each axis reversed in its URDF nothing is refused, but the
+    robot falls the wrong way.
+    """
+    monkeypatch.chdir(tmp_path)
+    record, model = tmp_path / "own" / "robot.toml", tmp_path / "own" / "floating.urdf"
+    assert robot("new", urdf(rabbit()), "--out", record.parent).exit_code == 0
+    assert robot("check", record).exit_code == 0
+    tree = ET.parse(model)
+    for axis in tree.iter("axis"):
+        x, y, z = map(float, axis.attrib["xyz"].split())
+        axis.attrib["xyz"] = f"{x} {-y} {z}"
+    tree.write(model)
+    wrong = robot("check", record)
+    assert (wrong.exit_code, "BROKEN   Theta falls" in wrong.stdout) == (1, True)
 
 
 @pytest.mark.parametrize("name", ["rabbit", "compass"])

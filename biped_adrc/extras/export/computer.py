@@ -44,7 +44,7 @@ class Computer:
         if not isinstance(timing, SampledTime) or p == 0:
             raise InputError(
                 f"a computer sends torques to motors at sample instants, found {type(timing).__name__} and {p} "
-                "motors; give the scenario a period, such as period = '1 ms', or hardware"
+                "motors; give the scenario hardware.period = '1 ms', or hardware = 'rabbit'"
             )
         # raises InputError where the controller has no form for sample instants
         _ = self.walker.law

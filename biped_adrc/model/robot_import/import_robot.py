@@ -232,6 +232,12 @@ class Derived:
         return record
 
 
+def of_record(path: Path | str) -> Derived:
+    """The robot of a robot.toml, in its default preset, with the checks of the laws."""
+    biped = Biped.load(str(path))
+    return Derived(biped, (), physical_checks(biped), {})
+
+
 def biped_from_urdf(
     path: Path | str,
     feet: tuple[str, str] | None = None,

@@ -12,7 +12,6 @@ data, j the index of a joint and b that of a body; body 0 is the world.
 """
 
 import math
-import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
@@ -42,8 +41,8 @@ def read_mjcf(path: Path) -> Contents:
         import mujoco
     mujoco.set_mju_user_warning(lambda _: None)  # MuJoCo's own handler writes a file MUJOCO_LOG.TXT
     try:
-        m = _compiled(mujoco.MjModel, path)
-    except (ValueError, ET.ParseError) as error:
+        m = mujoco.MjModel.from_xml_path(str(path))
+    except ValueError as error:
         reason = " ".join(str(error).split())
         raise ModelError(f"MJCF '{path}' does not compile: {reason}") from None
     if m.neq:
@@ -68,30 +67,6 @@ def read_mjcf(path: Path) -> Contents:
     turns = dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True))
     tree, notes = _tree(m, d, names, path), _notes(m, hinges)
     return Contents(tree, torques, viscous, static, rotor, turns, notes)
-
-
-def _compiled(model: Any, path: Path) -> Any:
-    """Compile the MJCF at a path by `model`, MuJoCo's class MjModel. Raises ValueError if it fails.
-
-    MuJoCo from 2.3.4 on refuses a file with `coordinate="global"`, whose places are all in the world. The same
-    file without that attribute and without places of bodies is right: all body frames then lie at the world's
-    origin.
-    """
-    try:
-        return model.from_xml_path(str(path))
-    except ValueError as error:
-        if "global coordinates" not in str(error):
-            raise
-        root = ET.fromstring(path.read_bytes().lstrip())
-        bodies = root.findall(".//body")
-        # without `pos` the turn of a turned body, and the place of a body without joints, would be lost
-        # turns: attributes of a body that turn its frame
-        turns = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
-        if any(turns & {*body.attrib} or body.find("joint") is None for body in bodies):
-            raise
-    for element in (*root.iterfind("compiler"), *bodies):
-        element.attrib = {k: x for k, x in element.attrib.items() if k not in ("coordinate", "pos")}
-    return model.from_xml_string(ET.tostring(root, encoding="unicode"))
 
 
 def _name(m: Any, j: int) -> str:
