@@ -264,7 +264,7 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
         controller = getattr(controller, "inner", None)
 
 
-ARGUMENTS = {"output": 2, "flow": 3, "correct": 2, "predict": 3, "jump": 3}
+HOW_MANY = {"output": 2, "flow": 3, "correct": 2, "predict": 3, "jump": 3}
 """Number of arguments of the methods that a user's controller may write."""
 
 
@@ -277,7 +277,7 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     """
     own, output = has_own_class(controller), getattr(controller, "measured_output", None)
     kept = dict(vars(controller))
-    for name, count in ARGUMENTS.items() if own else ():
+    for name, count in HOW_MANY.items() if own else ():
         try:
             signature(getattr(controller, name)).bind(*range(count))
         except TypeError as error:
