@@ -129,9 +129,18 @@ def test_the_numbers_of_the_readme_are_those_of_the_page():
     words = " ".join((comparison.ROOT / "README.md").read_text().split())
     answer = numbers.answers()[0][1]
     assert f"leaves **{answer.value:.2g} (95 %: at most {answer.high:.2g})** of NPD's" in words
-    at = ("rabbit", "v0.6", "tracking")
-    adrc, npd = (numbers.feasible((*at, c)).split(" of ")[0] for c in ("m = 1", "NPD"))
-    assert f"Of 20 walks ADRC makes {adrc} feasibly, NPD {npd}. This may be chance." in words
+    walked = {
+        condition: [
+            numbers.fine(("rabbit", "v0.6", "tracking", c), condition) for c in ("m = 1", "NPD")
+        ]
+        for condition in (numbers.PUSH, numbers.HIP, "masses x 0.7")
+    }
+    (a, b), (c, d), (e, f) = walked.values()
+    assert (
+        f"Of 20 walks ADRC makes {a} feasibly, NPD {b}. With 2 N held on the hip they make {c} and {d}."
+        in words
+    )
+    assert f"30 % lighter than modelled, ADRC makes {e} of 20 walks, NPD {f}." in words
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):

@@ -25,10 +25,10 @@ LEG = 0.8
 """Length of RABBIT's leg [m]: an error e of a hip moves the foot by 0.8 e."""
 DRAWN = 10_000
 """Draws of an interval beside those of the six questions."""
-PUSH, HEIGHTS = "80 N m", ("5 mm", "10 mm", "20 mm")
+PUSH, HIP, HEIGHTS = "80 N m", "hip, 2 N", ("5 mm", "10 mm", "20 mm")
 LOADS = {
     PUSH: "pushes of 80 N m",
-    "hip, 2 N": "2 N held on the hip",
+    HIP: "2 N held on the hip",
     "trunk +30 %": "30 % more mass on the trunk",
     "masses x 0.7": "masses times 0.7",
     "masses x 1.5": "masses times 1.5",
@@ -260,9 +260,15 @@ def where_both(one: Place, other: Place) -> str:
     return f"{np.median(a[both] / b[both]):.2g}"
 
 
-def of_all(at: Place) -> str:
-    """The share [%] of feasible walks under the push, over all searches at a place."""
-    return f"{100.0 * np.isfinite(side_of(at, PUSH).errors).mean():.0f}"
+def of_all(at: Place, condition: str) -> str:
+    """The share [%] of feasible walks under a condition, over all searches at a place."""
+    return f"{100.0 * np.isfinite(side_of(at, condition).errors).mean():.0f}"
+
+
+def answer_before() -> str:
+    """The answer to the first question in the version before this one."""
+    with (statistics.HERE / "versions.csv").open() as file:
+        return [*csv.DictReader(file)][-2]["answers"].partition(",")[0]
 
 
 def small_and_robust(at: Place) -> tuple[str, str]:

@@ -20,9 +20,11 @@ from validation.findings import comparison, statistics
 from validation.findings.comparison import ROOT
 from validation.findings.numbers import (
     HEIGHTS,
+    HIP,
     LOADS,
     PUSH,
     Names,
+    answer_before,
     answers,
     by_condition,
     by_controller,
@@ -145,8 +147,11 @@ def fields() -> dict[str, Any]:
             m1=fine((*rabbit, "m = 1"), PUSH),
             npd=fine((*rabbit, "NPD"), PUSH),
             both=where_both((*rabbit, "m = 1"), (*rabbit, "NPD")),
-            m1_all=of_all((*rabbit, "m = 1")),
-            npd_all=of_all((*rabbit, "NPD")),
+            m1_hip=fine((*rabbit, "m = 1"), HIP),
+            npd_hip=fine((*rabbit, "NPD"), HIP),
+            m1_all=of_all((*rabbit, "m = 1"), HIP),
+            npd_all=of_all((*rabbit, "NPD"), HIP),
+            before=answer_before(),
         ),
         "limit": Names(least=min(fine(place_of(r), comparison.LATER) for r in best)),
         "range": Names(

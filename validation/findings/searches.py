@@ -12,6 +12,7 @@ from __future__ import annotations
 import csv
 import itertools
 import json
+import re
 import sys
 import tomllib
 from collections.abc import Iterator
@@ -146,7 +147,7 @@ def row_of(case: str, found: Results) -> dict[str, Any]:
     return row | {
         "candidates": sum(c.walked for c in choice.candidates),
         "on choice": digits(best.objective),
-        "stop": choice.stop.replace("controller.", "").replace("hardware.encoders.", ""),
+        "stop": re.sub(r"(controller|observer|hardware|encoders)\.", "", choice.stop),
         "values": json.dumps(values),
     }
 
