@@ -253,13 +253,6 @@ def pairs(one: Place, other: Place) -> list[float]:
     ]
 
 
-def where_both(one: Place, other: Place) -> str:
-    """The median ratio of errors under the push, of the walks that are feasible on both sides."""
-    a, b = (x.errors[x.best] for x in (side_of(one, PUSH), side_of(other, PUSH)))
-    both = np.isfinite(a) & np.isfinite(b)
-    return f"{np.median(a[both] / b[both]):.2g}"
-
-
 def of_all(at: Place, condition: str) -> str:
     """The share [%] of feasible walks under a condition, over all searches at a place."""
     return f"{100.0 * np.isfinite(side_of(at, condition).errors).mean():.0f}"

@@ -51,7 +51,6 @@ from validation.findings.numbers import (
     soft,
     stops,
     walks_of,
-    where_both,
 )
 from validation.findings.searches import PLAN
 
@@ -146,7 +145,6 @@ def fields() -> dict[str, Any]:
         "push": Names(
             m1=fine((*rabbit, "m = 1"), PUSH),
             npd=fine((*rabbit, "NPD"), PUSH),
-            both=where_both((*rabbit, "m = 1"), (*rabbit, "NPD")),
             m1_hip=fine((*rabbit, "m = 1"), HIP),
             npd_hip=fine((*rabbit, "NPD"), HIP),
             m1_all=of_all((*rabbit, "m = 1"), HIP),
