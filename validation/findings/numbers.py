@@ -225,6 +225,8 @@ def stops() -> Names:
     asked = {at: best_row(at)["stop"].partition(";")[0] for at in (*sides, *titles)}
     some = [f"{at[-1]} on {at[1]}" for at, x in asked.items() if x.startswith("not tuned")]
     gains = {place_of(r): gain(place_of(r)) for r in best}
+    # how much the chosen search itself gained, where it did
+    own = [x for at in {*sides} if (x := gain(at, [best_row(at)])) >= ENOUGH]
     still = [at for at in dict.fromkeys(sides) if gains[at] >= ENOUGH]
     return Names(
         count=len(best),
@@ -235,6 +237,8 @@ def stops() -> Names:
         sides="; ".join(f"{at[3]} ({named(at)}) did, by {100 * gains[at]:.1f} %" for at in still)
         or "none did",
         asked_count=len({*sides}),
+        own=len(own),
+        own_most=f"{100 * max(own):.0f}",
     )
 
 
@@ -288,12 +292,12 @@ def place_of(row: Mapping[str, str]) -> Place:
     return row["hardware"], row["gait"], row["tuning"], row["controller"]
 
 
-def gain(at: Place) -> float:
-    """The share [1] by which the last doubling made the best of all searches of a controller at a place better,
-    on the walks of choice; infinite where none kept the limits before it.
+def gain(at: Place, some: list[dict[str, str]] | None = None) -> float:
+    """The share [1] by which the last doubling made the best of all searches of a controller at a place, or of
+    some of them, better on the walks of choice; infinite where none kept the limits before it.
     """
     sign = comparison.sign_of(at[2])
-    mine = [r for r in rows("settings") if place_of(r) == at]
+    mine = some or [r for r in rows("settings") if place_of(r) == at]
     before, after = (
         min((sign * float(r[k]) for r in mine if r[k]), default=math.inf)
         for k in ("before", "on choice")
@@ -302,12 +306,13 @@ def gain(at: Place) -> float:
 
 
 def of_soft() -> Names:
-    """Feasible walks on MuJoCo's ground, level and pushed, by controller."""
-    names = {"m = 1": "m1", "assisted, m = 1": "assisted", "ADRC b0": "b0"}
-    names |= {"cascade": "cascade", "NPD": "npd"}
-    hard = [r for r in rows("comparison_soft") if r["condition"] != "trunk +30 %"]
-    mine = {k: [int(r["feasible"]) for r in hard if r["controller"] == k] for k in names}
-    return Names(**{names[k]: sum(x) for k, x in mine.items()})
+    """Feasible walks on MuJoCo's ground, level and pushed, by controller; trunk: of m = 1 with +30 %."""
+    names = {"m = 1": "m1", "ADRC b0": "b0", "NPD": "npd"}
+    walked = {
+        (r["controller"], r["condition"]): int(r["feasible"]) for r in rows("comparison_soft")
+    }
+    sums = {short: walked[k, "level"] + walked[k, PUSH] for k, short in names.items()}
+    return Names(**sums, trunk=walked["m = 1", "trunk +30 %"])
 
 
 def fine(at: Place, condition: str) -> int:

@@ -124,6 +124,7 @@ def fields() -> dict[str, Any]:
     )
     # b0 and the three behind it are ADRC laws
     light = [fine((*rabbit, c), "masses x 0.7") for c in PLAN["controllers"]]
+    unstable = [r for r in rows("margins") if r["disk_margin"] == "0"]
     on_ground = [fine(("rabbit", "v0.6", "ground", c), "masses x 0.7") for c in PLAN["controllers"]]
     on_20 = {
         gait: [
@@ -147,6 +148,7 @@ def fields() -> dict[str, Any]:
             npd=fine((*rabbit, "NPD"), PUSH),
             m1_hip=fine((*rabbit, "m = 1"), HIP),
             npd_hip=fine((*rabbit, "NPD"), HIP),
+            b0_hip=fine((*rabbit, "ADRC b0"), HIP),
             m1_all=of_all((*rabbit, "m = 1"), HIP),
             npd_all=of_all((*rabbit, "NPD"), HIP),
             before=answer_before(),
@@ -156,7 +158,8 @@ def fields() -> dict[str, Any]:
             low=min(walked_10),
             tracking_words=f"at most {max(so_tuned)}" if any(so_tuned) else "none",
             rough_least=min(on_20["rough"]),
-            level20=max(on_20["v0.6"]),
+            pd20=fine(("rabbit", "v0.6", "ground", "PD"), "20 mm"),
+            level20=sorted(on_20["v0.6"])[-2],
         ),
         "stop": stops(),
         "exact": Names(
@@ -174,10 +177,11 @@ def fields() -> dict[str, Any]:
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
             pid=compared((*rough, "m = 1"), (*rough, "PID")),
-            pid_pairs=f"{min(of_pid):.2g} to {max(of_pid):.2g}",
+            pid_most=f"{max(of_pid):.2g}",
         ),
         "margin": Names(
-            none=sum(r["disk_margin"] == "0" for r in rows("margins")),
+            none=len(unstable),
+            names=", ".join(sorted({r["controller"].removeprefix("ADRC ") for r in unstable})),
             count=len(rows("margins")),
         ),
         "gait": Names(
@@ -186,9 +190,11 @@ def fields() -> dict[str, Any]:
             level20=feasible(ground["v0.6"], "20 mm"),
         ),
         "load": Names(
-            most=max(light),
+            most=max(light[:4]),
+            other=min(light[:4]),
+            npd=light[1],
+            rough_st=fine((*rough, "super twisting"), "masses x 0.7"),
             adrc=max(light[4:]),
-            exact=max(fine((*exact, c), "masses x 0.7") for c in PLAN["controllers"]),
             ground=min(on_ground[:-1]),
             cascade=on_ground[-1],
         ),
