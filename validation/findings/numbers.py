@@ -234,17 +234,11 @@ def stops() -> Names:
         untuned=len(untuned),
         asked=", ".join(dict.fromkeys(some)) or "none",
         gaining=sum(x >= ENOUGH for x in gains.values()),
-        sides="; ".join(f"{at[3]} ({named(at)}) did, by {100 * gains[at]:.1f} %" for at in still)
-        or "none did",
+        sides=len(still) or "none",
         asked_count=len({*sides}),
         own=len(own),
         own_most=f"{100 * max(own):.0f}",
     )
-
-
-def named(at: Place) -> str:
-    """A place in words, such as "behind encoders, v0.6, ground"."""
-    return ", ".join(("behind encoders" if at[0] == "rabbit" else "exact", *at[1:3]))
 
 
 def pairs(one: Place, other: Place) -> list[float]:
