@@ -140,7 +140,7 @@ def test_the_numbers_of_the_readme_are_those_of_the_page():
         f"Of 20 walks ADRC makes {a} feasibly, NPD {b}. With 2 N held on the hip they make {c} and {d}."
         in words
     )
-    assert f"on a robot 30 % lighter, ADRC makes {e} of 20 walks, NPD {f}." in words
+    assert f"On a robot 30 % lighter ADRC makes {e} of 20 walks, NPD {f}." in words
 
 
 def test_the_grounds_of_the_headline_are_walked_as_the_readme_says(monkeypatch):
