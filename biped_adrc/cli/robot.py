@@ -1,8 +1,9 @@
 """`biped-adrc robot`: the robots that come with the package, and robots from a user's own URDF or MJCF.
 
 `check` and `new` derive a biped from such a file (`model.robot_import.derive`): what the file does not say is
-guessed, each guess is printed, and the model is checked against laws of mechanics. `list` prints
-the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`extras.mujoco.mjcf`).
+guessed, each guess is printed, and the model is checked against laws of mechanics. `check` takes a record
+(robot.toml), too, in which nothing is guessed. `list` prints the records, `export` writes a robot for
+MuJoCo's own viewer (`extras.mujoco.mjcf`).
 
 n is the number of coordinates, p that of motors. A *law* is a law of mechanics by which `model.physical`
 checks the model.

@@ -264,10 +264,6 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
         controller = getattr(controller, "inner", None)
 
 
-HOW_MANY = {"output": 2, "flow": 3, "correct": 2, "predict": 3, "jump": 3}
-"""Number of arguments of the methods that a user's controller may write."""
-
-
 def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool) -> None:
     """Check a controller's methods at the start of a run, in state s at m; sampled: whether at ticks.
 
@@ -277,13 +273,14 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     """
     own, output = has_own_class(controller), getattr(controller, "measured_output", None)
     kept = dict(vars(controller))
-    for name, count in HOW_MANY.items() if own else ():
+    for name in ("output", "flow", "correct", "predict", "jump") if own else ():
+        takes = [*signature(getattr(Controller, name)).parameters]  # self first
         try:
-            signature(getattr(controller, name)).bind(*range(count))
+            # as in a call with the arguments of the base class
+            signature(getattr(controller, name)).bind(*takes[1:])
         except TypeError as error:
             where = f"{spoken(controller)}.{name}{line_of(controller, name)}"
-            takes = ", ".join(signature(getattr(Controller, name)).parameters)
-            raise InputError(f"{where}: {error}, expected {name}({takes})") from error
+            raise InputError(f"{where}: {error}, expected {name}({', '.join(takes)})") from error
     if own and output:  # an observer's estimates have the shapes of what it measures
         part: Any = vars(controller)["observer"]
         returned_tree(part.estimate(s), Layout.of(output(m)), part, "estimate", finite=False)

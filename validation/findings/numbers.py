@@ -237,7 +237,7 @@ def stops() -> Names:
         sides=len(still) or "none",
         asked_count=len({*sides}),
         own=len(own),
-        own_most=f"{100 * max(own):.0f}",
+        own_most=f"{100 * max(own, default=0.0):.0f}",
     )
 
 
