@@ -15,7 +15,7 @@ from biped_adrc.analysis.statistics import share
 from biped_adrc.studies.search import ENOUGH
 from validation.findings import comparison, statistics
 from validation.findings.comparison import ROOT
-from validation.findings.searches import PLAN
+from validation.findings.searches import PLAN, places
 from validation.findings.statistics import Answer, Side
 
 ROWS = ROOT / "docs" / "findings"
@@ -25,13 +25,13 @@ LEG = 0.8
 """Length of RABBIT's leg [m]: an error e of a hip moves the foot by 0.8 e."""
 DRAWN = 10_000
 """Draws of an interval beside those of the six questions."""
-PUSH, HIP, HEIGHTS = "80 N m", "hip, 2 N", ("5 mm", "10 mm", "20 mm")
+PUSH, HIP, LIGHT, HEIGHTS = "80 N m", "hip, 2 N", "masses x 0.7", ("5 mm", "10 mm", "20 mm")
 LOADS = {
     PUSH: "pushes of 80 N m",
     HIP: "2 N held on the hip",
     "trunk +30 %": "30 % more mass on the trunk",
-    "masses x 0.7": "masses times 0.7",
-    "masses x 1.5": "masses times 1.5",
+    LIGHT: "30 % less mass",
+    "masses x 1.5": "50 % more mass",
     comparison.LATER: "1 ms more of delay",
 }
 """Conditions in words."""
@@ -135,9 +135,11 @@ def shares_of(
 
 
 def sizes(at: Place, condition: str = PUSH) -> str:
-    """The median error of the best search: in mrad, in counts of the encoder, in mm of the foot."""
+    """Cells of a table, the median error of the best search: in mrad, in counts of the encoder, in mm of the
+    foot.
+    """
     e = statistics.alone(side_of(at, condition), "error", DRAWN).value
-    return f"{1e3 * e:.2g} mrad ({e / COUNT:.2g} counts, {1e3 * LEG * e:.2g} mm of the foot)"
+    return f"{1e3 * e:.2g} mrad | {e / COUNT:.2g} | {1e3 * LEG * e:.2g} mm"
 
 
 def feasible(at: Place, condition: str = PUSH, name: str = "") -> str:
@@ -206,6 +208,14 @@ def compared(one: Place, other: Place, condition: str = PUSH, measure: str = "er
 def best_row(at: Place) -> dict[str, str]:
     """The row of the best search at a place."""
     return next(r for r in comparison.best_of(rows("settings")) if place_of(r) == at)
+
+
+def lengths(tuning: str) -> str:
+    """ "40 to 160": the most settings for each gain that a search may try at the places of a tuning."""
+    names = [", ".join(at) for at in places() if at[2] == tuning]
+    plans = [PLAN["search"] | PLAN["search_more"].get(name, {}) for name in names]
+    most = [p["budget"] << p["doublings"] for p in plans]
+    return f"{min(most)} to {max(most)}"
 
 
 def gains(at: Place) -> str:

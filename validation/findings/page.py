@@ -1,7 +1,7 @@
-"""The page of findings from its rows: every number that it prints, and its pictures.
+"""The two pages of the findings from their rows: every number that they print, and the pictures.
 
-page.md is the text with names in braces, such as {first.ratio}; `fields` computes what stands there. A test
-holds docs/findings.md to both.
+findings.md and comparison.md here are the texts with names in braces, such as {q1.value}; `fields` computes
+what stands there. A test holds both pages in docs to that.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from validation.findings.comparison import ROOT
 from validation.findings.numbers import (
     HEIGHTS,
     HIP,
+    LIGHT,
     LOADS,
     PUSH,
     Names,
@@ -34,6 +35,7 @@ from validation.findings.numbers import (
     fine,
     gains,
     largest_force,
+    lengths,
     of_all,
     of_soft,
     orders,
@@ -55,7 +57,7 @@ from validation.findings.numbers import (
 from validation.findings.searches import PLAN
 
 IMAGES = ROOT / "docs" / "images"
-PAGE, TEXT = ROOT / "docs" / "findings.md", Path(__file__).parent / "page.md"
+PAGES = [ROOT / "docs" / f"{name}.md" for name in ("findings", "comparison")]
 
 
 def picture(
@@ -66,15 +68,18 @@ def picture(
     write_bytes(IMAGES / f"found_{name}.svg", render(figure, "svg"))
 
 
-def write(path: Path = PAGE) -> None:
-    """Draw the pictures, and write the page."""
+def write() -> None:
+    """Draw the pictures, and write the pages."""
     pictures()
-    write_text(path, text())
+    for path, text in texts().items():
+        write_text(path, text)
 
 
-def text() -> str:
-    """The page, with its numbers."""
-    return TEXT.read_text().format_map(fields())
+def texts() -> dict[Path, str]:
+    """Each page, with its numbers."""
+    numbers = fields()
+    here = Path(__file__).parent
+    return {path: (here / path.name).read_text().format_map(numbers) for path in PAGES}
 
 
 def pictures() -> None:
@@ -91,7 +96,9 @@ def pictures() -> None:
     picture("gait", shares(by_gait, HEIGHTS), feasible_share, "linear")
     some = {c: ("rabbit", "v0.6", "tracking", c) for c in ("NPD", "PID", "ADRC b0", "m = 1")}
     kept = {c: at for c, at in some.items() if side(at, PUSH)}
-    picture("load", shares(kept, [*LOADS]), feasible_share, "linear")
+    by_load = shares(kept, [*LOADS])
+    in_words = {(LOADS[c], name): x for (c, name), x in by_load.items()}
+    picture("load", in_words, feasible_share, "linear")
     picture("soft", soft(), feasible_share, "linear")
     ends = (math.nan, math.nan)
     cases = dict.fromkeys((r["case"], r["condition"]) for r in rows("held_hip_force"))
@@ -112,8 +119,6 @@ def fields() -> dict[str, Any]:
     best = comparison.best_of(rows("settings"))
     every_pair = pairs((*rabbit, "m = 1"), (*rabbit, "NPD"))
     of_pid = pairs((*rough, "m = 1"), (*rough, "PID"))
-    plans = [PLAN["search"] | more for more in ({}, *PLAN["search_more"].values())]
-    in_all = [x["budget"] << x["doublings"] for x in plans]
     walked_10, so_tuned = (
         [
             fine((hardware, "v0.6", tuning, c), "10 mm")
@@ -123,9 +128,9 @@ def fields() -> dict[str, Any]:
         for tuning in ("ground", "tracking")
     )
     # b0 and the three behind it are ADRC laws
-    light = [fine((*rabbit, c), "masses x 0.7") for c in PLAN["controllers"]]
+    light = [fine((*rabbit, c), LIGHT) for c in PLAN["controllers"]]
     unstable = [r for r in rows("margins") if r["disk_margin"] == "0"]
-    on_ground = [fine(("rabbit", "v0.6", "ground", c), "masses x 0.7") for c in PLAN["controllers"]]
+    on_ground = [fine(("rabbit", "v0.6", "ground", c), LIGHT) for c in PLAN["controllers"]]
     on_20 = {
         gait: [
             fine((h, gait, "ground", c), "20 mm")
@@ -190,10 +195,12 @@ def fields() -> dict[str, Any]:
             level20=feasible(ground["v0.6"], "20 mm"),
         ),
         "load": Names(
+            m1=fine((*rabbit, "m = 1"), LIGHT),
+            m1_ground=fine(("rabbit", "v0.6", "ground", "m = 1"), LIGHT),
             most=max(light[:4]),
             other=min(light[:4]),
             npd=light[1],
-            rough_st=fine((*rough, "super twisting"), "masses x 0.7"),
+            rough_st=fine((*rough, "super twisting"), LIGHT),
             adrc=max(light[4:]),
             ground=min(on_ground[:-1]),
             cascade=on_ground[-1],
@@ -209,13 +216,7 @@ def fields() -> dict[str, Any]:
             npd=walks_of("NPD, rough", "20 mm"),
             rough=walks_of("reset, rough", "20 mm"),
         ),
-        "plan": Names(
-            low=min(x["budget"] for x in plans),
-            more=max(x["budget"] for x in plans),
-            most=max(in_all),
-            least=min(in_all),
-            next=max(x for x in in_all if x < max(in_all)),
-        ),
+        "plan": Names(**{tuning: lengths(tuning) for tuning in PLAN["tunings"]}),
         "orders": Names(
             first=orders()["m = 1", "push, 80 N m"][1],
             others=", ".join(orders()[f"m = {m}", "push, 80 N m"][1] for m in (2, 3, 5, 7)),
