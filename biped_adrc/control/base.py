@@ -34,7 +34,7 @@ from biped_adrc.core.checks import check_part, line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import Part, once
 from biped_adrc.core.shown import shown
-from biped_adrc.core.tree import Layout, flatten, returned_tree
+from biped_adrc.core.tree import Layout, flatten, returned_tree, zeros_like
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
@@ -171,8 +171,8 @@ class Controller(Part):
         return np.zeros(0)
 
     def flow(self, s: Any, m: Measurement, u: Array) -> Any:
-        """s' in continuous time, under the applied torque u (p,) [N m]; here s itself, which is empty."""
-        return s
+        """s' in continuous time, under the applied torque u (p,) [N m]; by default zero: s stays as it is."""
+        return zeros_like(s)
 
     def correct(self, s: Any, m: Measurement) -> Any:
         """s corrected by the measurement of this sample instant; sampled time only."""

@@ -125,6 +125,29 @@ def test_names_change_no_bit_of_a_walk(biped, gait, engine, clock):
     assert np.max(np.abs(s.e)) > 1e-5
 
 
+@dataclass(frozen=True)
+class Still(WithNames):
+    """The same law, which does not write what moves its state."""
+
+    flow, correct, predict, jump = (
+        getattr(ba.Controller, name) for name in ("flow", "correct", "predict", "jump")
+    )
+
+    def initial_state(self, m):
+        return Integral(np.full(len(m.q_b), 1e-4), 1.0)
+
+
+@pytest.mark.parametrize("clock", CLOCKS)
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+@pytest.mark.filterwarnings("ignore:Still has a state and no jump")
+def test_a_state_that_nothing_moves_stays(biped, gait, engine, clock):
+    """In continuous time s' was s itself, so that it grew as exp(t)."""
+    walk = walked(biped, gait, Still, clock, engine)
+    s = walk.walker.split_state(walk.trajectory.final_state)[2]
+    assert np.all(s.e == 1e-4)
+    assert s.waits == 1.0
+
+
 def test_a_stored_walk_names_its_states(biped, gait, tmp_path):
     """The names are in the order of the state's vector: q, v, the controller's state s, and the torque u that
     is held between sample instants.
