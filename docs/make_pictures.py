@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
-from biped_adrc.analysis.rough_ground import rough_ground
+from biped_adrc.analysis.rough_ground import RoughGround, rough_ground
 from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
@@ -27,11 +28,13 @@ from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.study import read_study
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.placement import Clip
-from biped_adrc.view.plots.zero_dynamics import rough_ground_figure, zero_dynamics_figure
-from biped_adrc.view.style import render
+from biped_adrc.view.plots.zero_dynamics import DOMAIN, zero_dynamics_figure
+from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure, render
 from validation.findings import comparison, searches
 
 IMAGES = Path(__file__).resolve().parent / "images"
+WORST = 40
+"""Number of steps of the worst ground that is drawn."""
 SAMPLED = {"hardware.torque_limit": 150.0, "hardware.period": "1 ms", "run.impacts": 12}
 HELD = {"shape": "hip force", "force": 14.4, "direction": "180 deg", "steps": (5, 99)}
 FOOTSTEP = {"name": "footstep", "inner": "NPD"}
@@ -134,6 +137,56 @@ def rough_picture() -> Figure:
         k = int(np.searchsorted(s, law.share))
         steps.append((height, 0.5 * biped.angular_momentum(q[k], v[k]) ** 2))
     return rough_ground_figure(ground, steps)
+
+
+def rough_ground_figure(ground: RoughGround, steps: Iterable[tuple[float, float]]) -> Figure:
+    """Draw the map of a walk on rough ground: y*(h), the steps that keep all limits, the interval at H, and the
+    worst ground within [-H, H].
+
+    h is the height of the next foothold over the stance foot, y = sigma^2 / 2 in the middle of a step, as a
+    share of its value on level ground (`analysis.stride_map`). On stairs that change by the same h in each step
+    the walk comes to y*(h), so over heights in [-H, H] it stays between the least and the largest y*.
+
+    steps: of walks, (h [m], y [kg^2 m^4/s^2]) each, as dots.
+    """
+    m, reach = ground.map, ground.reach()
+    H = reach.height
+    level, h = m.steady[m.level], 1e3 * m.heights
+    lows, highs = (np.array([x[i] for x in ground.within.values()]) for i in (0, 1))
+    low, high = np.max(lows, axis=0) / level, np.min(highs, axis=0) / level
+    with new_figure(6.0, 4.0) as figure:
+        axes = figure.subplots()
+        top = 1.3 * max(y / level for y in ground.interval(min(1.5 * H, m.heights[-1])))
+        axes.fill_between(h, low, np.minimum(high, top), color=DOMAIN, lw=0, label="walked")
+        axes.plot(h, m.steady / level, color=PALETTE[0], label="y*, the same h in each step")
+        for bound in ground.interval(H):
+            axes.axhline(bound / level, color=GREY, ls=DASHES[1], lw=0.8)
+        x, y = np.array(worst_steps(ground, H)).T
+        axes.plot(1e3 * x, y / level, "o", color=PALETTE[1], ms=4, label="worst ground")
+        x, y = np.reshape([*steps], (-1, 2)).T
+        axes.plot(1e3 * x, y / level, ".", color="black", ms=3, label="walks")
+        for end in (-H, H):
+            axes.axvline(1e3 * end, color=GREY, ls=":", lw=0.8)
+        axes.set(xlim=(-2e3 * H, 2e3 * H), ylim=(0.0, top))
+        label(axes, "height of a step h [mm]", "y over y on level ground", f"H = {reach}")
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+        return figure
+
+
+def worst_steps(ground: RoughGround, H: float) -> list[tuple[float, float]]:
+    """(h, y) of WORST steps over heights in {-H, H}: first those that lead to the least y, then to the largest.
+
+    H [m]; y [kg^2 m^4/s^2] in the middle of the step that ends on the height h.
+    """
+    m, result = ground.map, list[tuple[float, float]]()
+    a, b = (np.interp([-H, H], m.heights, x) for x in (m.delta2, -m.delta2 * m.V_2 - m.V_1))
+    y = float(m.steady[m.level])
+    for k in range(WORST):
+        after = a * y + b
+        i = int(np.argmin(after) if k < WORST // 2 else np.argmax(after))
+        result.append(((-H, H)[i], y))
+        y = float(after[i])
+    return result
 
 
 def main() -> None:

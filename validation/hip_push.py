@@ -81,7 +81,7 @@ class HipCase:
             robot={"preset": self.preset},
             gait=self.gait,
             run={"impacts": self.steps, "h": self.h},
-            pushes=[{"shape": "hip force", "step": 1, "force": force, "direction": math.pi}],
+            pushes=[{"shape": "hip force", "force": force, "direction": math.pi}],
         )
 
     def parts(self) -> Parts:

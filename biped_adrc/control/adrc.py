@@ -28,6 +28,7 @@ import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.tracking import TABLE_II, Gains, ObservingController, tracking_torque
+from biped_adrc.core.part import rewrites
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import ErrorSystem, Estimate, Observer, ResetPolicy
@@ -70,7 +71,10 @@ class ADRCController(ObservingController):
         return tracking_torque(self.gains, r, self.joint_estimate(x, m), m, self.solve_theta)
 
     def error_system(self) -> ErrorSystem | None:
-        return self.observer.error_system()
+        # a subclass may write another flow of the observer, or of the law, beside the inherited error dynamics
+        own = rewrites(self, "error_system", "flow", "observer_input", "measured_output")
+        other = own or rewrites(self.observer, "error_system", "flow")
+        return None if other else self.observer.error_system()
 
 
 @dataclass(frozen=True)
@@ -95,9 +99,3 @@ class AssistedADRCController(ADRCController):
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
         """The estimates x of the joints with xi^ = xi + d^ (p,) [rad/s^2] in place of d^."""
         return x._replace(disturbance=m.terms.xi + x.disturbance)
-
-    def error_system(self) -> ErrorSystem | None:
-        """None, so no exponential integration method: an `ErrorSystem`, linear error dynamics of an observer,
-        holds for the input kappa u, and here xi is added to that.
-        """
-        return None

@@ -34,7 +34,7 @@ touchdown itself is its `ResetPolicy`.
 """
 
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.checks import NonNegativeFloat
@@ -51,6 +51,7 @@ class Around(Controller):
     that of the controller inside.
     """
 
+    IS_BASE: ClassVar[bool] = True
     inner: Controller
 
     @property
@@ -90,6 +91,7 @@ class Around(Controller):
         return replace(self, inner=self.inner.sampled(period))
 
     def continuous(self) -> Self:
+        super().continuous()  # raises InputError for a wrapper that works in sampled time only
         return replace(self, inner=self.inner.continuous())
 
 

@@ -113,16 +113,6 @@ def impulse_of(m: Measurement) -> Array:
     return m.impulse
 
 
-_GONE = {
-    **dict.fromkeys(
-        ("projected_output", "projected_correct"),
-        "read m.impulse in output or correct, and name the method in reads_impulse",
-    ),
-    "output_change": "write impulse_change(m), which reads m.impulse",
-}
-"""Names of methods that are gone, and what stands in their place."""
-
-
 class Controller(Part):
     """Base of all controllers: write `output`, and the other methods that the controller needs.
 
@@ -141,12 +131,8 @@ class Controller(Part):
     """
 
     SUCH_AS = "NPDController(gait.constraint)"
-
-    def __init_subclass__(cls, **kwargs: Any) -> None:
-        """Raise InputError for a class that writes a method of a name that is gone."""
-        super().__init_subclass__(**kwargs)
-        for name in [x for x in _GONE if hasattr(cls, x)]:
-            raise InputError(f"{cls.__name__} writes {name}, which is gone; {_GONE[name]}")
+    IS_BASE: ClassVar[bool] = True
+    """In the class itself: its methods do nothing of their own, or pass calls on to `inner`."""
 
     needs_body: ClassVar[bool] = False
     """Whether the controller reads `Measurement.body`, which is computed only then."""
@@ -230,8 +216,8 @@ class Controller(Part):
         return None
 
     def _writes(self, name: str) -> bool:
-        """Whether the controller's class overrides the method `name` of `Controller`."""
-        return getattr(type(self), name) is not getattr(Controller, name)
+        """Whether the controller's class overrides the method `name` of a base (`IS_BASE`)."""
+        return not next(vars(c) for c in type(self).__mro__ if name in vars(c)).get("IS_BASE")
 
     def _only_sampled(self) -> NoReturn:
         """Raise InputError: this controller works in sampled time only."""

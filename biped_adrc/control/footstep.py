@@ -221,9 +221,6 @@ class Footstep(OuterLoop):
     def sampled(self, period: float) -> Self:
         return with_fields(self, inner=self.inner.sampled(period), period=period)
 
-    def continuous(self) -> Self:
-        self._only_sampled()  # decisions are made at sample instants
-
     @derived
     def base(self) -> VirtualConstraint:
         """The constraint of the controller inside, in whose place h comes: the correction is h - base."""

@@ -17,7 +17,7 @@ reference in force.
 
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement, nested
@@ -45,6 +45,7 @@ class LoopState(NamedTuple):
 class OuterLoop(Around):
     """Base of all outer loops. Raises InputError when `inner` has no virtual constraint as `reference`."""
 
+    IS_BASE: ClassVar[bool] = True
     # none: `ImpactInvariant`, which uses this, goes inside an outer loop and not around one
     reads_impulse: ClassVar[tuple[str, ...]] = ()
 
@@ -79,6 +80,16 @@ class OuterLoop(Around):
     def own_correct(self, w: Any, m: Measurement) -> Any:
         """w after the measurement of a sample instant; unchanged by default."""
         return w
+
+    def sampled(self, period: float) -> Self:
+        if self._writes("own_flow") and not self._writes("own_correct"):
+            self._has_no("method own_correct", "write it: w after a sample instant")
+        return super().sampled(period)
+
+    def continuous(self) -> Self:
+        if self._writes("own_correct") and not self._writes("own_flow"):
+            self._only_sampled()
+        return super().continuous()
 
     def _acting(self, w: Any) -> Controller:
         """The inner controller with its constraint corrected by c(Theta; w)."""

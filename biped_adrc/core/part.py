@@ -216,6 +216,14 @@ def once(make: Callable[..., T]) -> Callable[..., T]:
     return found
 
 
+def rewrites(part: object, name: str, *others: str) -> bool:
+    """Whether a class of the part writes one of the methods `others` again, below the class that writes the
+    method `name`, which holds for the others as they were.
+    """
+    at = {x: [x in vars(c) for c in type(part).__mro__].index(True) for x in (name, *others)}
+    return any(at[x] < at[name] for x in others)
+
+
 def shared(part: T, **values: Any) -> T:
     """A copy of a part with these fields changed; the part itself if they have these values already.
 

@@ -27,7 +27,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import Measurement, has_own_class
 from biped_adrc.core.checks import Checked, PositiveInt, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
-from biped_adrc.core.part import constant
+from biped_adrc.core.part import constant, shared
 from biped_adrc.core.processes import cores
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.tree import flatten
@@ -65,7 +65,8 @@ class Case(Checked, Shown):
     - impacts: the walk ends after so many, at the latest after that many times `walker.max_step_time`.
     - mode: the single support in which it starts.
     - curve: the reference from which errors are measured in `BatchWalk.table`; None keeps none.
-    - gait: the gait from whose orbit the walk starts where q and v are left out.
+    - gait: the gait from whose orbit the walk starts where q and v are left out; a walker without a slope
+      walks on the gait's.
 
     Raises InputError for a field of another class, and where both gait and q, v are left out.
 
@@ -85,7 +86,9 @@ class Case(Checked, Shown):
     gait: Gait | None = None
 
     def __post_init__(self) -> None:
-        """Take the start of the gait where q and v are left out; see the class."""
+        """Take the slope of the gait for a walker without one, and its start where q and v are left out."""
+        if self.gait is not None and self.walker.slope is None:
+            vars(self)["walker"] = shared(self.walker, slope=self.gait.slope)
         if self.q is None or self.v is None:
             check_part(self.gait, "the gait of a case without q and v", Gait)
             # q, v of the gait on the controller's model, put past the frozen class's own refusal

@@ -18,7 +18,7 @@ these methods, which are pure functions; randomness is a part of w, so that a wa
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from biped_adrc.core.checks import Checked, check_part
 from biped_adrc.core.errors import InputError
@@ -58,6 +58,9 @@ class Sensor(Checked):
         """The sensor that a walk runs: for n coordinates, p of them with motors, ticks every `period` [s]."""
         return self
 
+    comes_first: ClassVar[bool] = False
+    """Whether it measures the state itself, so that no sensor can stand before it."""
+
     @property
     def noisy(self) -> bool:
         """Whether the readings are random: a walk with such a sensor has no orbit, and so no return map."""
@@ -90,6 +93,8 @@ class Sensor(Checked):
 
     def __add__(self, other: Sensor) -> Sensor:
         check_part(other, f"what is added to {type(self).__name__}", Sensor)
+        if _parts(other)[0].comes_first:  # it would drop the readings of those before it
+            raise InputError(f"{type(other).__name__} reads the state itself, so it comes first")
         return Sensing((*_parts(self), *_parts(other)))
 
 

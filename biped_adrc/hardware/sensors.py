@@ -41,7 +41,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Annotated, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -73,6 +73,7 @@ class Sensors(Shown, Sensor):
     2
     """
 
+    comes_first: ClassVar[bool] = True
     counts: CountsFloat | None = None
     pitch_resolution: NonNegativeFloat | None = None
     noise: NonNegativeFloat = 0.0

@@ -37,7 +37,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_count, check_positive, check_whole
-from biped_adrc.core.part import Part, once
+from biped_adrc.core.part import Part, once, rewrites
 from biped_adrc.core.shown import shown
 from biped_adrc.core.types import Array, Indices, relabelled
 
@@ -148,7 +148,11 @@ class Observer(Part):
     # `once` keeps the result for each observer and period
     @once
     def at_ticks(self, period: float) -> Observer:
-        """The result of `sampled`, checked. Raises InputError for one without `correct` and `predict`."""
+        """The result of `sampled`, checked. Raises InputError for one without `correct` and `predict`, and for
+        an observer whose class writes another `flow` than that of which `sampled` is the discrete form.
+        """
+        if rewrites(self, "sampled", "flow"):
+            self._only("writes another flow; write sampled(period) for it, or use ContinuousTime()")
         # `sampled` may be a user's; a method that is still the one of this base was not written, and `_only`
         # raises InputError
         found = self.sampled(period)

@@ -211,7 +211,8 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
     for name in s.dotted():
         if not name.startswith(effective):
             raise InputError(f"robot '{s.robot.name}' has no motors, so no {name}; leave it out")
-    slope, time, speed = scene.slope(s), known.max_step_time, s.run.runaway_speed
+    time = s.run.max_step_time if "run.max_step_time" in s.dotted() else known.max_step_time
+    slope, speed = scene.slope(s), s.run.runaway_speed
     return Walker(scene.biped, Passive(), slope=slope, max_step_time=time, runaway_speed=speed)
 
 
@@ -247,8 +248,7 @@ def sensors(s: Scenario) -> Sensor | None:
     measured exactly.
     """
     e, more, encoders = s.hardware.encoders, s.hardware.sensor, None
-    # a filter alone is no sensor: it smooths differences of angles, which are another value of the record
-    if e.record().keys() - {"filter_time"}:
+    if e.record():
         # None: the angle of the pitch has the resolution of the joints
         noise = (e.noise, e.pitch_noise, e.rate_noise)
         rates, noisy = (e.velocity, e.filter_time), drawn(s, "sensors")
@@ -370,9 +370,13 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
         "force": not forced and "is a torque; name the link on which a force acts",
         "torque": "amplitude" not in accepted and "takes no torque",
         "rise": "rise" not in accepted and "has no edges; only a pulse has a rise",
+        **dict.fromkeys(
+            ("step", "onset", "duration", "across_impacts"),
+            "steps" in accepted and "acts all the time; give steps = [first, last]",
+        ),
     }
     for name, why in idle.items():
-        if why and getattr(push, name):
+        if why and name in push.record():
             raise Misfit(f"pushes.{i}.{name}", f"the push '{push.shape}' {why}")
     known = {
         **window(s, i, period),
@@ -388,7 +392,9 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1
     # of pushes from before the first single support only a step of the torque, which stays, or a push that
     # goes on over impacts may act
-    if push.step > last or (push.step < first and push.shape != "step" and not push.over_impacts):
+    if ("step" in accepted and push.step > last) or (
+        push.step < first and push.shape != "step" and not push.over_impacts
+    ):
         raise Misfit(f"pushes.{i}.step", f"is {push.step}, the walk has {first} to {last}")
     return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
 

@@ -48,7 +48,7 @@ NO_MAP = (
     *("pushes", "ground.drop", "start"),
 )
 """Values and records of a scenario that have no effect on a return map."""
-FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
+FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed", "run.max_step_time")
 """Further values that have no effect on the return map of a robot without motors."""
 
 

@@ -40,6 +40,13 @@ class EncoderRecord(Record):
     angle_filter: float = field(0.0, "s", ge=0, le=1.0)
     """A low-pass with this time constant acts on the joints' angles."""
 
+    @model_validator(mode="after")
+    def _filtered(self) -> Self:
+        """Raise Misfit for a low-pass of differences where rates are measured."""
+        if self.filter_time and self.velocity == "measured":
+            raise Misfit("filter_time", 'acts on velocity = "differences" or "gyro" only')
+        return self
+
 
 class SensorRecord(OpenRecord):
     """One more sensor behind the encoders, with its parameters."""

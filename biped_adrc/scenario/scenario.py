@@ -89,6 +89,13 @@ class ContactRecord(OpenRecord):
     window: float | None = field(None, "s", ge=0, le=1.0)
     """The policy acts for so long after touchdown; by default as long as it says itself."""
 
+    @model_validator(mode="after")
+    def _named(self) -> Self:
+        """Raise Misfit for a window without a policy."""
+        if self.window is not None and self.name is None:
+            raise Misfit("window", "is that of a policy; give its name too")
+        return self
+
 
 class ControllerRecord(OpenRecord):
     """The controller; its further parameters by name."""
@@ -154,7 +161,12 @@ class GroundRecord(OpenRecord):
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
-        """Raise Misfit unless stone_range, if any, is two lengths, the least above 0 and first."""
+        """Raise Misfit unless stone_range, if any, is two lengths, the least above 0 and first, and for values
+        of soft ground where it is rigid.
+        """
+        soft = {"friction", "time_constant", "damping_ratio", "plant_step"} & self.record().keys()
+        if soft and self.plant == "rigid":
+            raise Misfit(min(soft), "is of soft ground; give ground.plant too")
         ends = self.stone_range
         if ends is not None and not (len(ends) == 2 and 0.0 < ends[0] <= ends[1]):
             raise Misfit("stone_range", f"is {ends}, expected the least and the largest length [m]")
@@ -269,7 +281,7 @@ class Scenario(Record):
     to the start. limits: what ground and motors can give. run: length, seed and numerics. dotted: single values
     by dotted names, such as **{"run.seed": 3}, which count before those of a record.
 
-    Raises InputError for an unknown name, a value out of its range, and one that cannot have an effect.
+    Raises InputError for an unknown name, a value out of its range, and for most that cannot have an effect.
 
     >>> scenario = ba.Scenario("ADRC", gait="v0.8", hardware={"period": "1 ms"})
     >>> scenario.replace({"run.impacts": 10}).run.impacts

@@ -42,6 +42,8 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import BeforeValidator, Field
 
+from biped_adrc.scenario.dotted import flat
+from biped_adrc.scenario.hardware import PROFILES
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.build import Values
 from biped_adrc.studies.measure import Aim, Limit, Measure, Row, numbers_without_walk
@@ -92,11 +94,14 @@ class Variable(Section):
 
     def acts(self, values: Values, free: Collection[str] = ()) -> bool:
         """Whether the variable has an effect in a scenario with these values: by `when`, where a field without
-        a value has its default. free: names of fields that may still get any value; these count as met.
+        a value has that of the hardware's profile, or its default. free: names of fields that may still get any
+        value; these count as met.
         """
+        profile = flat({"hardware": PROFILES.get(values.get("hardware.profile", ""), {})})
+        known = {**profile, **values}
         # those: the values of the field `name` with which this variable has an effect
         return all(
-            name in free or values.get(name, Scenario.field_of(name).default) in those
+            name in free or known.get(name, Scenario.field_of(name).default) in those
             for name, those in self.when.items()
         )
 

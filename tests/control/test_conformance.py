@@ -120,7 +120,7 @@ ROWS = {
         ],
         "encoders": lambda make: [
             make(8192.0, noise=5e-5, rate_noise=0.01, filter_time=2e-3, seed=3),
-            make(64.0, velocity="gyro") + make(velocity="measured", pitch_noise=1e-3, seed=4),
+            make(64.0, velocity="gyro", pitch_noise=1e-3, seed=4),
         ],
     },
     "touchdown": {

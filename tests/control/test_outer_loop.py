@@ -9,14 +9,15 @@ largest of the first.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.stride_gain import StrideResponse, stride_response
-from biped_adrc.control.outer_loop import reference_in_force
+from biped_adrc.control.around import Around
+from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
 from biped_adrc.core.errors import GaitError, InputError
@@ -179,6 +180,54 @@ def test_what_cannot_be_corrected_is_refused(bare, published):
     ):
         with pytest.raises((InputError, GaitError)):
             make()
+
+
+@dataclass(frozen=True)
+class Counting(OuterLoop):
+    """A loop with a state that corrects nothing."""
+
+    def own_start(self, h, m):
+        return np.zeros(1)
+
+    def correction(self, w):
+        return TORSO_LEAN
+
+
+class Flows(Counting):
+    """One whose own state moves in continuous time alone."""
+
+    def own_flow(self, w):
+        return np.ones(1)
+
+
+class Corrects(Counting):
+    """One whose own state moves at sample instants alone."""
+
+    def own_correct(self, w, m):
+        return w + 1e-3
+
+
+@dataclass(frozen=True)
+class Clock(Around):
+    """A wrapper with a state that moves in continuous time alone."""
+
+    def initial_state(self, m):
+        return np.zeros(1)
+
+    def flow(self, s, m, u):
+        return np.ones(1)
+
+
+def test_a_state_that_does_not_move_in_this_time_base_is_refused(bare, published):
+    """Bases of wrappers write all methods, and that hid what a user's class does not write."""
+    inner = ba.NPDController(published.constraint)
+    for law in (Flows(inner), Clock(inner)):
+        law.continuous()
+        with pytest.raises(InputError, match=r"has no (method own_correct|discrete form); write"):
+            law.at_ticks(1e-3)
+    Corrects(inner).at_ticks(1e-3)
+    with pytest.raises(InputError, match="Corrects has no form but one in sampled time only"):
+        Corrects(inner).continuous()
 
 
 def test_nothing_is_corrected_where_too_little_of_the_step_is_left_for_it(bare, published):

@@ -18,6 +18,7 @@ from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.observers.base import Estimate
+from biped_adrc.observers.bounded import BoundedObserver
 from tests.export.test_agreement import TOLERANCE, difference
 
 K_I, LEAST = 1e5, 1e-4
@@ -123,6 +124,44 @@ def test_names_change_no_bit_of_a_walk(biped, gait, engine, clock):
     assert isinstance(s, Integral)
     assert s.waits == 0.0
     assert np.max(np.abs(s.e)) > 1e-5
+
+
+class ObserverStill(ba.GPIObserver):
+    """An observer that writes another flow than the one whose error dynamics it inherits."""
+
+    def flow(self, z, y, input):
+        return 0.0 * z
+
+
+class LawStill(ba.ADRCController):
+    """The same in the law."""
+
+    def flow(self, s, m, u):
+        return 0.0 * s
+
+
+class Biased(ba.ADRCController):
+    """A law with another input of the observer."""
+
+    def observer_input(self, m, u):
+        return super().observer_input(m, u) + 100.0
+
+
+def test_what_is_inherited_does_not_stand_for_what_is_written_again(gait):
+    """The exponential method and the discrete form took the inherited observer in its place, silently."""
+    h, plain, still = gait.constraint, ba.GPIObserver.from_bandwidth(300.0), ObserverStill(3, 300.0)
+    assert ba.ADRCController(h, plain).error_system() is not None
+    bounded = BoundedObserver(still, 50.0)
+    for law in (
+        LawStill(h, plain),
+        Biased(h, plain),
+        *(ba.ADRCController(h, o) for o in (still, bounded)),
+    ):
+        assert law.error_system() is None
+    with pytest.raises(
+        InputError, match=r"ObserverStill writes another flow; write sampled\(period\)"
+    ):
+        ba.ADRCController(h, still).at_ticks(1e-3)
 
 
 @dataclass(frozen=True)
@@ -350,18 +389,6 @@ def test_a_state_that_no_longer_fits_is_refused_wherever_it_comes_from(biped, ga
         observer = type("Own", (ba.GPIObserver,), {method.__name__.partition("_")[0]: method})
         law = ba.ADRCController(h, observer.from_bandwidth(300.0, 1))
         assert sentence(ba.Walker(biped, law), gait, engine).startswith(said)
-
-
-def test_a_method_of_a_name_that_is_gone_is_refused_with_the_new_one():
-    """Also where a class beside the controller's writes it."""
-    for name, said in (
-        ("projected_output", "read m.impulse in output or correct"),
-        ("output_change", r"write impulse_change\(m\)"),
-    ):
-        methods = {name: lambda self: None}
-        for bases, own in (((), methods), ((type("Beside", (), methods),), {})):
-            with pytest.raises(InputError, match=f"Own writes {name}, which is gone; {said}"):
-                type("Own", (*bases, ba.NPDController), own)
 
 
 def test_a_list_in_a_state_is_an_array(biped, gait):

@@ -63,6 +63,14 @@ def test_a_case_takes_a_gait_or_a_state(plain, gait):
         Case(plain.walker, method=plain.method)
 
 
+def test_a_case_of_a_gait_walks_on_the_slope_of_the_gait(plain, gait):
+    """As `walk` does; a walker with a slope of its own keeps it."""
+    downhill = replace(gait, slope=0.01)
+    assert Case(plain.walker, gait=downhill, method=plain.method).walker.slope == 0.01
+    level = replace(plain.walker, slope=0.0)
+    assert Case(level, gait=downhill, method=plain.method).walker.slope == 0.0
+
+
 @pytest.fixture(scope="module")
 def mixed(biped, gait, npd, plain):
     """Robots, methods, time bases, starts and ends of all kinds."""

@@ -35,7 +35,7 @@ SETTINGS = {
     "lagging motors": {"hardware.lag": "2 ms", "controller.name": "NPID", **SAMPLED},
     "torques beyond their bound at a sample instant": {"hardware.lag": "3 ms", **SAMPLED},
     "a force on the hip": {
-        "pushes": [{"shape": "hip force", "force": 5.0, "step": 1, "onset": 0.05}],
+        "pushes": [{"shape": "hip force", "force": 5.0}],
         **SAMPLED,
     },
     "steps shorter than the period": {"run.h": "0.4 ms", "ground.drop": 0.004, **SAMPLED},

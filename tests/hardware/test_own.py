@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.core.errors import InputError
 from biped_adrc.engine.program import numbers_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.hardware.sensing import Sensor
@@ -153,6 +154,13 @@ def test_a_sensor_that_loses_its_numbers_on_the_way_is_named(biped, gait, engine
     run = ba.walk(walker, gait, impacts=2, engine=engine).trajectory
     assert not run.status.ok
     assert "Lost.reading" in run.detail
+
+
+def test_a_sensor_before_the_encoders_is_refused():
+    """They read the state itself, and lost what stood before them."""
+    for first in (Slow(), Slow() + Tilted()):
+        with pytest.raises(InputError, match="Sensors reads the state itself, so it comes first"):
+            first + ba.Sensors(8192)
 
 
 def test_a_sensor_of_one_s_own_has_no_noise_and_its_computer_is_that_of_the_others():

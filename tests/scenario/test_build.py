@@ -325,6 +325,22 @@ def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> N
 @pytest.mark.parametrize(
     ("values", "message"),
     [
+        ({"ground.friction": 0.1}, "ground.friction: is of soft ground; give ground.plant too"),
+        ({"controller.contact.window": 0.01}, "window: is that of a policy; give its name too"),
+        (
+            {"hardware.period": 1e-3, "hardware.encoders.filter_time": 1e-3},
+            'encoders.filter_time: acts on velocity = "differences" or "gyro" only',
+        ),
+    ],
+)
+def test_a_value_that_would_do_nothing_is_refused(values, message) -> None:
+    with pytest.raises(ba.BipedError, match=message):
+        Scenario("NPD", **values)
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
         ({"pushes": "q1=3@6:0-0.1"}, "pushes.0.step: is 6, the walk has 2 to 5"),
         ({"pushes": "q1=3@1:0-0.1"}, "pushes.0.step: is 1, the walk has 2 to 5"),
         (
@@ -339,6 +355,14 @@ def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> N
             {"pushes": [{"shape": "hip force", "torque": 3.0}]},
             "torque: .*'hip force' takes no torque",
         ),
+        (
+            {"pushes": [{"shape": "hip force", "force": 3.0, "step": 4}]},
+            "pushes.0.step: the push 'hip force' acts all the time; give steps",
+        ),
+        (
+            {"pushes": [{"shape": "hip force", "force": 3.0, "duration": 0.3}]},
+            "pushes.0.duration: the push 'hip force' acts all the time",
+        ),
         # no push: a controller without torque on a robot with motors
         ({"controller": "passive"}, "'passive' does not fit robot 'rabbit' with 4 motors"),
     ],
@@ -348,10 +372,20 @@ def test_a_push_that_cannot_act_is_refused(values, message) -> None:
     others is refused with the reason.
     """
     run = {"run.first_step": 2, "run.impacts": 4}
-    for fits in ("q1=3@2:0-0.1", "q1=3@5:0-0.1", "q1=3@1:0.1-"):
+    held = [
+        {"shape": "hip force", "force": 3.0}
+    ]  # all the time, also in a walk shorter than the default step
+    for fits in ("q1=3@2:0-0.1", "q1=3@5:0-0.1", "q1=3@1:0.1-", held):
         build(Scenario("NPD", pushes=fits, **run))
+    build(Scenario("NPD", pushes=held, run={"impacts": 1}))
     with pytest.raises(ba.BipedError, match=message):
         build(Scenario(**{"controller": "NPD"} | run | values))
+
+
+def test_a_robot_without_motors_stalls_when_a_step_takes_too_long() -> None:
+    """A step of the compass takes 0.734 s; 2 s is the default."""
+    walk = ba.walk_scenario(Scenario("passive", robot="compass", run={"max_step_time": 0.1}))
+    assert walk.trajectory.status is ba.Status.STALLED
 
 
 RANGES = """

@@ -242,6 +242,18 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
     assert {p.name for p in tmp_path.glob("*.toml")} == {"chosen-narrow.toml", "chosen-all.toml"}
 
 
+def test_a_variable_acts_with_what_the_profile_fills_in():
+    """The profile rabbit takes differences for rates, so their low-pass acts there alone."""
+    name = "hardware.encoders.filter_time"
+    when = {"hardware.encoders.velocity": "differences"}
+    variables = {name: {"from": "1 ms", "to": "9 ms", "when": when}}
+    search = read_study(plants.tables(variables=variables)).search
+    of_rabbit = {"hardware.profile": "rabbit", name: 3e-3}
+    assert [*search.acting(of_rabbit)] == [name]
+    assert search.values(of_rabbit, {name: 2e-3})[name] == 2e-3
+    assert not search.acting({"hardware.profile": "ideal"})
+
+
 def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     """Bandwidth and order act under LESO alone, run.impacts with order 2 or 3 alone: `values` has only what
     acts, in a chain of two `when`. The objective is the order here, 9 without one, so that the best of 32 has

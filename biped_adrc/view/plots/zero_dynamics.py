@@ -1,5 +1,4 @@
-"""The zero dynamics of a gait: I(Theta), V_zero(Theta), the phase portrait with its domain, and rho(zeta); and
-the map of a walk on rough ground.
+"""The zero dynamics of a gait: I(Theta), V_zero(Theta), the phase portrait with its domain, and rho(zeta).
 
 The zero dynamics are the motion with all joints exactly on the gait's curves: a scalar system.
 
@@ -14,21 +13,14 @@ The zero dynamics are the motion with all joints exactly on the gait's curves: a
 
 `biped-adrc gait zero --plot` draws all four from a `ZeroDynamicsReport` (`analysis.zero_report`).
 The domain is the range of zeta from which walks come back to the orbit and keep the limits.
-
-On rough ground h is the height of the next foothold over the stance foot, y = sigma^2 / 2 in the middle of a
-step, as a share of its value on level ground (`analysis.stride_map`). On stairs that change by the same h in
-each step the walk comes to y*(h), so over heights in [-H, H] it stays between the least and the largest y*. A
-step from (h, y) is walked where no limit is broken.
 """
 
 import math
-from collections.abc import Iterable
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from biped_adrc.analysis.rough_ground import RoughGround
 from biped_adrc.analysis.zero_report import ZeroDynamicsReport
 from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_domain import PASSING
@@ -40,8 +32,6 @@ STAIRS = 8
 """Number of walking steps drawn from either end of the domain."""
 DOMAIN = "#DDEBF4"
 """Light blue, the colour of the domain."""
-WORST = 40
-"""Number of steps of the worst ground that is drawn."""
 
 
 def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
@@ -199,48 +189,3 @@ def _walking_order(axes: Axes, theta: Array) -> Axes:
     """
     axes.set_xlim(theta[0], theta[-1])
     return axes
-
-
-def rough_ground_figure(ground: RoughGround, steps: Iterable[tuple[float, float]]) -> Figure:
-    """Draw y*(h), the steps that keep all limits, the interval at H, and the worst ground within [-H, H].
-
-    steps: of walks, (h [m], y [kg^2 m^4/s^2]) each, as dots.
-    """
-    m, reach = ground.map, ground.reach()
-    H = reach.height
-    level, h = m.steady[m.level], 1e3 * m.heights
-    lows, highs = (np.array([x[i] for x in ground.within.values()]) for i in (0, 1))
-    low, high = np.max(lows, axis=0) / level, np.min(highs, axis=0) / level
-    with new_figure(6.0, 4.0) as figure:
-        axes = figure.subplots()
-        top = 1.3 * max(y / level for y in ground.interval(min(1.5 * H, m.heights[-1])))
-        axes.fill_between(h, low, np.minimum(high, top), color=DOMAIN, lw=0, label="walked")
-        axes.plot(h, m.steady / level, color=PALETTE[0], label="y*, the same h in each step")
-        for bound in ground.interval(H):
-            axes.axhline(bound / level, color=GREY, ls=DASHES[1], lw=0.8)
-        x, y = np.array(worst_steps(ground, H)).T
-        axes.plot(1e3 * x, y / level, "o", color=PALETTE[1], ms=4, label="worst ground")
-        x, y = np.reshape([*steps], (-1, 2)).T
-        axes.plot(1e3 * x, y / level, ".", color="black", ms=3, label="walks")
-        for end in (-H, H):
-            axes.axvline(1e3 * end, color=GREY, ls=":", lw=0.8)
-        axes.set(xlim=(-2e3 * H, 2e3 * H), ylim=(0.0, top))
-        label(axes, "height of a step h [mm]", "y over y on level ground", f"H = {reach}")
-        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
-        return figure
-
-
-def worst_steps(ground: RoughGround, H: float) -> list[tuple[float, float]]:
-    """(h, y) of WORST steps over heights in {-H, H}: first those that lead to the least y, then to the largest.
-
-    H [m]; y [kg^2 m^4/s^2] in the middle of the step that ends on the height h.
-    """
-    m, result = ground.map, list[tuple[float, float]]()
-    a, b = (np.interp([-H, H], m.heights, x) for x in (m.delta2, -m.delta2 * m.V_2 - m.V_1))
-    y = float(m.steady[m.level])
-    for k in range(WORST):
-        after: Array = a * y + b
-        i = int(np.argmin(after) if k < WORST // 2 else np.argmax(after))
-        result.append(((-H, H)[i], y))
-        y = float(after[i])
-    return result
