@@ -234,6 +234,3 @@ class Predicted(Around):
 
     def sampled(self, period: float) -> Self:
         return replace(self, inner=self.inner.sampled(period), period=period)
-
-    def continuous(self) -> Self:
-        self._only_sampled()

@@ -46,6 +46,7 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 
 from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt, Range, one_of
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived, setup
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
@@ -98,8 +99,11 @@ class Sensors(Shown, Sensor):
         """The sensor that stands for the software on the controller's computer: differences of angles and their
         low-pass, without noise and counts; where rates are measured, nothing of these sensors runs there.
 
-        before: the software of the sensors before these, None without any.
+        before: the software of the sensors before these, None without any. Raises InputError for a low-pass on
+        the angles beside measured rates.
         """
+        if self.angle_filter and self.velocity == "measured":
+            raise InputError("a low-pass on angles needs rates by differences or gyro here")
         return before if self.velocity == "measured" else self.smooth()
 
     def errors(self, n: int, p: int, before: Array) -> Array:

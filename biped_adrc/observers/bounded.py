@@ -69,5 +69,4 @@ class BoundedObserver(Observer):
         return replace(self, inner=self.inner.at_ticks(period))
 
     def error_system(self) -> ErrorSystem | None:
-        again = rewrites(self.inner, "error_system", "flow")
-        return None if again else self.inner.error_system()
+        return None if rewrites(self.inner, "error_system", "flow") else self.inner.error_system()

@@ -392,9 +392,8 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1
     # of pushes from before the first single support only a step of the torque, which stays, or a push that
     # goes on over impacts may act
-    if ("step" in accepted and push.step > last) or (
-        push.step < first and push.shape != "step" and not push.over_impacts
-    ):
+    early = push.step < first and push.shape != "step" and not push.over_impacts
+    if "step" in accepted and (early or push.step > last):
         raise Misfit(f"pushes.{i}.step", f"is {push.step}, the walk has {first} to {last}")
     return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
 

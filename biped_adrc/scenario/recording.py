@@ -385,7 +385,8 @@ class Walk(Shown):
         for arc in self.trajectory.arcs:
             events += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
         columns = {"t [s]": s.t, "step": s.step.astype(int), "event": events}
-        forces = dict(zip(("F_T [N]", "F_N [N]"), s.ground_reaction.T, strict=True))
+        along_and_out = np.array(ground_axes(self.walker.ground_slope)) @ s.ground_reaction.T
+        forces = dict(zip(("F_T [N]", "F_N [N]"), along_and_out, strict=True))
         # _OF_JOINTS: the signals with a column for each joint or coordinate
         return columns | joint_columns(s, _OF_JOINTS) | forces
 

@@ -97,8 +97,8 @@ class Variable(Section):
         a value has that of the hardware's profile, or its default. free: names of fields that may still get any
         value; these count as met.
         """
-        profile = flat({"hardware": PROFILES.get(values.get("hardware.profile", ""), {})})
-        known = {**profile, **values}
+        profile = PROFILES.get(values.get("hardware.profile", ""), {})
+        known = {**flat({"hardware": profile}), **values}
         # those: the values of the field `name` with which this variable has an effect
         return all(
             name in free or known.get(name, Scenario.field_of(name).default) in those

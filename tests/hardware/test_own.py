@@ -178,5 +178,7 @@ def test_a_sensor_of_one_s_own_has_no_noise_and_its_computer_is_that_of_the_othe
     both = ba.Sensors(velocity="differences") + pitch
     assert both.on_computer(None) == ba.Sensors(velocity="gyro")
     assert pitch.on_computer(before) is before
+    with pytest.raises(InputError, match="a low-pass on angles needs rates by differences"):
+        ba.Sensors(velocity="measured", angle_filter=1e-3).on_computer(None)
     # deviations of (q1, q2, v1, v2): q2 is the pitch, whose rate this sensor measures without noise
     assert pitch.errors(2, 1, before).tolist() == [1.0, 1e-3, 1.0, 0.0]

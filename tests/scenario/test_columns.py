@@ -6,6 +6,7 @@ The fixture walk is RABBIT under NPD for two steps; biped and gait are RABBIT an
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +48,15 @@ def test_columns_have_units_and_the_last_bit(walk, tmp_path):
     for i, name in enumerate(("F_T [N]", "F_N [N]")):
         assert np.array_equal(np.array(found.pop(name), dtype=float), s.ground_reaction[:, i])
     assert set(found) == {"t [s]", "step", "event"}
+
+
+def test_forces_are_along_the_ground_and_out_of_it(walk):
+    """Downhill by 0.02 rad; `Signals` has them along x and z of the world."""
+    walk = replace(walk, walker=replace(walk.walker, slope=0.02))
+    table, (x, z) = walk.to_pandas(), walk.signals.ground_reaction.T
+    c, s = np.cos(0.02), np.sin(0.02)
+    assert table["F_T [N]"].to_numpy() == pytest.approx(c * x - s * z)
+    assert table["F_N [N]"].to_numpy() == pytest.approx(s * x + c * z)
 
 
 def test_events_are_where_they_happen(walk):
