@@ -263,32 +263,13 @@ def pairs(one: Place, other: Place) -> list[float]:
 
 def of_all(at: Place, condition: str) -> str:
     """The share [%] of feasible walks under a condition, over all searches at a place."""
-    return f"{100.0 * np.isfinite(side_of(at, condition).errors).mean():.0f}"
+    return f"{100.0 * np.isfinite(side_of(at, condition).errors).mean():.1f}"
 
 
 def answer_before() -> str:
     """The answer to the first question in the version before this one."""
     with (statistics.HERE / "versions.csv").open() as file:
         return [*csv.DictReader(file)][-2]["answers"].partition(",")[0]
-
-
-def small_and_robust(at: Place) -> tuple[str, str]:
-    """The search with the least error of those at a place that walk 10 mm as often as the best one of a
-    controller: "one m = 1 makes 18", and its error.
-    """
-    least = fine(at, "10 mm")
-    found = []
-    for controller in PLAN["controllers"]:
-        here = (*at[:3], controller)
-        walked, pushed = (side_of(here, condition).errors for condition in ("10 mm", PUSH))
-        counts = np.isfinite(walked).sum(axis=1)
-        found += [
-            (float(np.median(e)), f"one {controller} makes {n}")
-            for n, e in zip(counts, pushed, strict=True)
-            if n >= least
-        ]
-    e, words = min(found)
-    return words.replace("ADRC ", ""), f"{1e3 * e:.2g} mrad"
 
 
 def place_of(row: Mapping[str, str]) -> Place:

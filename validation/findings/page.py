@@ -49,7 +49,6 @@ from validation.findings.numbers import (
     side,
     side_of,
     sizes,
-    small_and_robust,
     soft,
     stops,
     walks_of,
@@ -176,8 +175,6 @@ def fields() -> dict[str, Any]:
         "ground": Names(
             walks=feasible(of_ground, "10 mm"),
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
-            small=small_and_robust(of_ground)[0],
-            small_error=small_and_robust(of_ground)[1],
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
@@ -200,7 +197,7 @@ def fields() -> dict[str, Any]:
             most=max(light[:4]),
             other=min(light[:4]),
             npd=light[1],
-            rough_st=fine((*rough, "super twisting"), LIGHT),
+            rough=", ".join(f"{c} {fine((*rough, c), LIGHT)}" for c in PLAN["controllers"]),
             adrc=max(light[4:]),
             ground=min(on_ground[:-1]),
             cascade=on_ground[-1],
@@ -215,6 +212,7 @@ def fields() -> dict[str, Any]:
             level=walks_of("reset, v0.6", "20 mm"),
             npd=walks_of("NPD, rough", "20 mm"),
             rough=walks_of("reset, rough", "20 mm"),
+            step=walks_of("footstep, rough", "20 mm"),
         ),
         "plan": Names(**{tuning: lengths(tuning) for tuning in PLAN["tunings"]}),
         "orders": Names(
