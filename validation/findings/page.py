@@ -197,7 +197,7 @@ def fields() -> dict[str, Any]:
             most=max(light[:4]),
             other=min(light[:4]),
             npd=light[1],
-            rough=", ".join(f"{c} {fine((*rough, c), LIGHT)}" for c in PLAN["controllers"]),
+            rough="; ".join(f"{c}: {fine((*rough, c), LIGHT)}" for c in PLAN["controllers"]),
             adrc=max(light[4:]),
             ground=min(on_ground[:-1]),
             cascade=on_ground[-1],
