@@ -132,7 +132,8 @@ class Controller(Part):
 
     SUCH_AS = "NPDController(gait.constraint)"
     IS_BASE: ClassVar[bool] = True
-    """In the class itself: its methods do nothing of their own, or pass calls on to `inner`."""
+    """Whether the methods of this very class do nothing of their own, or only pass calls on to `inner`; a class
+    that inherits from it is no base unless it says so."""
 
     needs_body: ClassVar[bool] = False
     """Whether the controller reads `Measurement.body`, which is computed only then."""

@@ -217,8 +217,8 @@ def once(make: Callable[..., T]) -> Callable[..., T]:
 
 
 def rewrites(part: object, name: str, *others: str) -> bool:
-    """Whether a class of the part writes one of the methods `others` again, below the class that writes the
-    method `name`, which holds for the others as they were.
+    """Whether a subclass writes one of the methods `others` again, but inherits the method `name`, which is
+    right only for the others as they were.
     """
     at = {x: [x in vars(c) for c in type(part).__mro__].index(True) for x in (name, *others)}
     return any(at[x] < at[name] for x in others)

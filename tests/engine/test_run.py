@@ -606,6 +606,11 @@ class Turns(Stateless):
         return super().output(s, m) + 0.0 * np.arctan2(m.t, 1.0)
 
 
+class Fills(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) + 0.0 * np.nan_to_num(m.q_b)
+
+
 @dataclass(frozen=True)
 class Logs(Stateless):
     kept: list = field(default_factory=list)
@@ -638,6 +643,7 @@ IN_PYTHON = {
     Interpolates: "turns a number into a float",
     Checks: ": a function or operator there has no compiled form;",
     Turns: ": a function or operator there has no compiled form;",
+    Fills: "uses nan_to_num, which has no form on symbols",
     Logs: "changes a list",
     Noisy: "uses a Generator",
 }

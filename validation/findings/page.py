@@ -173,7 +173,6 @@ def fields() -> dict[str, Any]:
             st=compared((*exact, "super twisting"), (*exact, "NPD")),
         ),
         "ground": Names(
-            walks=feasible(of_ground, "10 mm"),
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
         ),
         "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
