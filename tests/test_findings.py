@@ -4,6 +4,7 @@ studies walks, and its statistics keep laws that need no simulation.
 
 import csv
 import importlib
+import json
 import math
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -12,9 +13,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.study import read_study
-from validation.findings import comparison, numbers, page, statistics
-from validation.findings.__main__ import COMPARED, DECLARED, SOFT, STUDIES, counts
+from validation.findings import comparison, numbers, page, searches, statistics, steps
+from validation.findings.__main__ import COMPARED, DECLARED, DIGITS, SOFT, STUDIES, counts
 from validation.findings.statistics import Side
 
 NAMES = (*COMPARED, SOFT, *DECLARED)
@@ -59,6 +61,9 @@ def test_each_study_of_the_comparison_is_that_of_its_settings():
     rows = comparison.settings()
     for name, at in COMPARED.items():
         expected = comparison.toml(comparison.tables_of(*at, rows), comparison.comment(name))
+        assert (STUDIES / f"{name}.toml").read_text() == expected
+    for name, tables in ((SOFT, comparison.soft_tables), (DIGITS, comparison.digit_tables)):
+        expected = comparison.toml(tables(rows), comparison.comment(name))
         assert (STUDIES / f"{name}.toml").read_text() == expected
 
 
@@ -162,3 +167,49 @@ def test_each_number_of_a_question_stands_on_the_page():
     text = page.PAGES[0].read_text()
     for _, answer, _ in numbers.answers():
         assert re.sub(r"\s+", " ", numbers.in_words(answer)) in re.sub(r"\s+", " ", text)
+
+
+class Formula(steps.Place):
+    """Settings that are judged by a formula in place of walks: the error is 1 / K_p, and more than 20 of K_p
+    for each unit of K_d misses the limit.
+    """
+
+    def walked(self, number, asked):
+        result = {}
+        for name, x in asked.items():
+            k_p, k_d = x["controller.K_p"], x["controller.K_d"]
+            missed = (max(0.0, k_p / k_d - 20.0), 0.0)
+            result[name] = Candidate(number, x, x, 1.0 / k_p, missed, True)
+        return result
+
+
+def test_a_setting_is_moved_until_it_keeps_the_limits_and_no_step_gains():
+    tables = searches.study_of("exact", "v0.6", "tracking")
+    place = Formula(read_study(tables), None, None)
+    gains = {"1": (2100.0, 100.0), "2": (1000.0, 201.0), "3": (1900.0, 120.0), "4": (1e5, 50.0)}
+    stops = {"2": "not tuned: better with K_p up by 3%", "3": "stopped by the objective: K_p up"}
+    rows = [
+        {
+            "controller": "PD",
+            "search": i,
+            "on choice": "",
+            "values": json.dumps({"controller.K_p": k_p, "controller.K_d": k_d}),
+            "stop": stops.get(i, ""),
+            "why": "",
+        }
+        for i, (k_p, k_d) in gains.items()
+    ]
+    steps.stepped(place, rows)
+    one, two, three, far = rows
+    ends = [json.loads(r["values"]) for r in (one, two, three)]
+    assert all(x["controller.K_p"] <= 20.0 * x["controller.K_d"] for x in ends)
+    # a ratio of 21 is some 5 % off the limit: steps of 3.5 % of K_p, or 2.6 % of K_d, bring it back
+    assert one["why"] == steps.MISSED
+    assert 1.0 / one["on choice"] > 1800.0
+    # K_p of the second doubles twice, a step being a tenth of three decades; a third time misses the limit
+    assert (two["why"], ends[1]["controller.K_p"]) == (steps.MOVED, pytest.approx(3981.0718))
+    assert "mean feasible under 1 ms more at least 1: K_p up" in two["stop"]
+    # the third was stopped by its search, and stays
+    assert (three["why"], ends[2]["controller.K_p"]) == ("", 1900.0)
+    # ten small steps do not bring the last one back
+    assert (far["values"], far["stop"]) == ("", steps.OUTSIDE)

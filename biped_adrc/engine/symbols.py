@@ -117,8 +117,7 @@ def _compare(name: str) -> Callable[..., Any]:
     """NumPy's comparison `name` as a method whose result is an array of Scalars; NumPy's own result is one of
     bool.
     """
-    compare = getattr(np, name)
-    return lambda self, other: compare(self, other, dtype=object)
+    return lambda self, other: getattr(np, name)(self, other, dtype=object)
 
 
 class _Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):

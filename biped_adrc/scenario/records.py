@@ -377,9 +377,7 @@ def converted(what: Described, x: Any) -> Any:
             return x == "true"
         elif tuple in types and what.in_brackets:  # a list of numbers with a unit, such as lengths
             return tuple(quantity(word, unit) for word in x.split(","))
-    if int in types and isinstance(x, float) and x.is_integer():
-        return int(x)
-    return x
+    return int(x) if int in types and isinstance(x, float) and x.is_integer() else x
 
 
 @lru_cache

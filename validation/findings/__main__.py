@@ -31,7 +31,8 @@ COMPARED = {
     for tuning in ("tracking", "ground")
 }
 SOFT = "comparison_soft"
-DECLARED = ("orders", "held_hip_force", "laws_and_gaits")
+DIGITS = "last_digits"
+DECLARED = ("orders", "held_hip_force", "laws_and_gaits", DIGITS)
 """Studies whose rows are counts of feasible walks and errors."""
 
 
@@ -118,8 +119,9 @@ def write_studies() -> None:
     for name, at in COMPARED.items():
         text = comparison.toml(comparison.tables_of(*at, rows), comparison.comment(name))
         (STUDIES / f"{name}.toml").write_text(text)
-    text = comparison.toml(comparison.soft_tables(rows), comparison.comment(SOFT))
-    (STUDIES / f"{SOFT}.toml").write_text(text)
+    for name, tables in ((SOFT, comparison.soft_tables), (DIGITS, comparison.digit_tables)):
+        text = comparison.toml(tables(rows), comparison.comment(name))
+        (STUDIES / f"{name}.toml").write_text(text)
 
 
 def main() -> None:

@@ -180,6 +180,32 @@ def soft() -> dict[tuple[str, str], Any]:
     return result
 
 
+def last_digits() -> Names:
+    """What the ninth digit of K_p changes: the least and largest ratio of the first question, and counts of
+    feasible walks with a force held on the hip, over all values of K_p.
+    """
+    walked = [(r["case"].partition(", ")[0], r) for r in rows("last_digits")]
+    pushed, held = (
+        {
+            c: [r for name, r in walked if (name, r["condition"]) == (c, at)]
+            for c in ("m = 1", "NPD")
+        }
+        for at in (PUSH, HIP)
+    )
+    one, other = (np.array([comparison.errors_of(r) for r in x]) for x in pushed.values())
+    ratios = np.exp(np.median(statistics.logs(one, other), axis=2))
+    counts = {c: [int(r["feasible"]) for r in x] for c, x in held.items()}
+    return Names(
+        low=f"{ratios.min():.3g}",
+        high=f"{ratios.max():.3g}",
+        **{
+            f"{name}_{k}": f(counts[c])
+            for name, c in (("m1", "m = 1"), ("npd", "NPD"))
+            for k, f in (("low", min), ("high", max))
+        },
+    )
+
+
 class Names:
     """Texts by name, so that {size.m1} finds its own."""
 
@@ -285,7 +311,7 @@ def gain(at: Place, some: list[dict[str, str]] | None = None) -> float:
     mine = some or [r for r in rows("settings") if place_of(r) == at]
     before, after = (
         min((sign * float(r[k]) for r in mine if r[k]), default=math.inf)
-        for k in ("before", "on choice")
+        for k in ("before", "doubled")
     )
     return (before - after) / abs(before) if before < math.inf else math.inf
 

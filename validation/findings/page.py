@@ -35,6 +35,7 @@ from validation.findings.numbers import (
     fine,
     gains,
     largest_force,
+    last_digits,
     lengths,
     of_all,
     of_soft,
@@ -54,6 +55,7 @@ from validation.findings.numbers import (
     walks_of,
 )
 from validation.findings.searches import PLAN
+from validation.findings.steps import MISSED, MOVED, OUTSIDE
 
 IMAGES = ROOT / "docs" / "images"
 PAGES = [ROOT / "docs" / f"{name}.md" for name in ("findings", "comparison")]
@@ -166,6 +168,13 @@ def fields() -> dict[str, Any]:
             level20=sorted(on_20["v0.6"])[-2],
         ),
         "stop": stops(),
+        "steps": Names(
+            count=len(rows("settings")),
+            missed=sum(r["why"] == MISSED for r in rows("settings")),
+            moved=sum(r["why"] == MOVED for r in rows("settings")),
+            outside=sum(r["stop"] == OUTSIDE for r in rows("settings")) or "none",
+        ),
+        "digits": last_digits(),
         "exact": Names(
             b0m=compared((*exact, "ADRC b0"), (*exact, "m = 1")),
             b0m_later=compared((*exact, "ADRC b0"), (*exact, "m = 1"), comparison.LATER),

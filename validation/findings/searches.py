@@ -3,8 +3,8 @@
     python -m validation.findings.searches out [exact-v0.6-tracking ..]
 
 A place is (hardware, gait, tuning). What is chosen is written to settings.csv, one row for each search, with
-what stopped it, and its objective on the walks of choice at the end and before the last doubling. A search
-that was stopped goes on with the same command.
+what stopped it. Its objective on the walks of choice is there before and after the last doubling, and at the
+end, after `steps`. A search that was stopped goes on with the same command.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from __future__ import annotations
 import csv
 import itertools
 import json
-import re
 import sys
 import tomllib
 from collections.abc import Iterator
@@ -21,7 +20,9 @@ from typing import Any
 
 import biped_adrc as ba
 from biped_adrc.studies.results import Results
+from biped_adrc.studies.study import read_study
 from validation.findings.statistics import questions
+from validation.findings.steps import Place, digits, short, stepped
 
 PLAN = tomllib.loads((Path(__file__).parent / "comparison.toml").read_text())
 SEARCH, CHOICE, REHEARSAL = 0, 100, 900
@@ -36,6 +37,7 @@ COLUMNS = (
     "search",
     "candidates",
     "before",
+    "doubled",
     "on choice",
     "stop",
     "values",
@@ -126,12 +128,14 @@ def search_at(
         chosen = {k: x.selected[0].objective for k, x in carried(most - 1).choices.items()}
         path.write_text(json.dumps(chosen))
     before, found = json.loads(path.read_text()), carried(most)
-    return [
+    rows = [
         dict(zip(COLUMNS, at, strict=False))
         | row_of(case, found)
-        | {"before": before.get(case, "")}
+        | {"before": rounded(before[case]) if case in before else ""}
         for case in tables["cases"]
     ]
+    stepped(Place(read_study(tables), folder / f"{out.name}-steps", workers), rows)
+    return rows
 
 
 def row_of(case: str, found: Results) -> dict[str, Any]:
@@ -146,15 +150,15 @@ def row_of(case: str, found: Results) -> dict[str, Any]:
     values = {n: digits(x) for n, x in best.values.items() if n in variables}
     return row | {
         "candidates": sum(c.walked for c in choice.candidates),
-        "on choice": digits(best.objective),
-        "stop": re.sub(r"(controller|observer|hardware|encoders)\.", "", choice.stop),
+        "doubled": rounded(best.objective),
+        "stop": short(choice.stop),
         "values": json.dumps(values),
     }
 
 
-def digits(x: float) -> float:
-    """A number as it is stored: with fewer digits a setting misses the limit by a walk."""
-    return float(f"{x:.8g}")
+def rounded(x: float) -> float:
+    """An objective that is compared with another one of its search."""
+    return float(f"{x:.5g}")
 
 
 def every_row(folder: Path) -> Iterator[dict[str, str]]:

@@ -219,7 +219,7 @@ RECORD_KEYS = {f.name for f in fields(RobotDescription)} - {"viscous", "static"}
 
 def robot_names() -> tuple[str, ...]:
     """Names of the robots that come with the package, as `load_description` takes them."""
-    return tuple(stored("robot"))
+    return stored("robot")
 
 
 def load_description(robot: str | Path) -> RobotDescription:

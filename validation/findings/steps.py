@@ -1,0 +1,138 @@
+"""Steps after the searches: each setting as it is stored, walked again, and moved while that helps.
+
+A search ends near a limit, where the last digits of a gain decide whether 20 of 20 walks keep it. So what it
+chose is written with the digits that are stored and walked again on the walks of choice. Steps of one gain
+follow: of SMALL of its range while the setting misses a limit, or of twice as much where none of them misses
+less; then of LARGE while one of them gains ENOUGH. Each time the best setting beside it takes its place.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from contextlib import suppress
+from itertools import groupby
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import biped_adrc as ba
+from biped_adrc.core.errors import InputError
+from biped_adrc.studies.build import REFUSED, Values, scenario_of, trial_of
+from biped_adrc.studies.search import ENOUGH, Candidate, Search
+from biped_adrc.studies.study import Study
+
+SMALL, LARGE = 0.005, 0.1
+"""Steps as shares of a variable's range; LARGE is that by which a search says what stopped it."""
+MOST = 10
+"""Most steps of a setting."""
+MOVED, MISSED = "moved: a step gained", "as stored it missed a limit"
+OUTSIDE = "no step came within the limits"
+"""Words of the rows: why a setting was moved, and that none was left."""
+
+
+def digits(x: float) -> float:
+    """A number as it is stored."""
+    return float(f"{x:.8g}")
+
+
+def short(stop: str) -> str:
+    """What stopped a search, without the tables in which its variables stand."""
+    return re.sub(r"(controller|observer|hardware|encoders)\.", "", stop)
+
+
+def builds(values: Values) -> bool:
+    """Whether the values of a scenario fit together."""
+    with suppress(InputError):
+        return bool(trial_of(scenario_of(values)))
+    return False
+
+
+class Place(NamedTuple):
+    """The searches of a place: the study that searched, where walks go, and how many processes walk."""
+
+    study: Study
+    folder: Path
+    workers: int | None
+
+    @property
+    def search(self) -> Search:
+        """The search of all its cases."""
+        assert self.study.search is not None
+        return self.study.search
+
+    def walked(self, number: int, asked: Mapping[str, dict[str, Any]]) -> dict[str, Candidate]:
+        """Settings "case" or "case: step", by their values of the variables, judged by the walks of choice.
+        number: of the round, whose rows have a folder of their own.
+        """
+        study = self.study
+        of = {name: name.partition(": ")[0] for name in asked}
+        cases = {name: study.cases[of[name]] | x for name, x in asked.items()}
+        # gains that do not go together are refused, and miss the limits
+        rows = {name: [(c, {"status": REFUSED}) for c in study.conditions] for name in asked}
+        tables = {
+            "name": f"{study.name}, steps {number}",
+            "base": study.base,
+            "conditions": study.conditions,
+            "cases": {name: x for name, x in cases.items() if builds(study.base | x)},
+            "seeds": list(self.search.walks.choice.seeds),
+        }
+        found = ba.study(tables, self.folder / str(number), self.workers)
+        for name, some in groupby(found.results(), lambda x: str(x.at["case"])):
+            rows[name] = [(str(x.at["condition"]), x.row) for x in some]
+        judged = self.search.judged
+        return {k: judged(study.values_of(of[k]), number, x, rows[k]) for k, x in asked.items()}
+
+    def beside(self, case: str, c: Candidate, w: float) -> dict[str, dict[str, Any]]:
+        """Settings a step w beside that of a case, each as its values of the variables."""
+        ranges = {n: v.range for n, v in self.search.acting(self.study.values_of(case)).items()}
+        moved = {
+            f"{n} {word}": c.chosen | {n: digits(r.shift(c.chosen[n], by))}
+            for n, r in ranges.items()
+            if r is not None
+            for word, by in (("down", -w), ("up", w))
+        }
+        return {k: x for k, x in moved.items() if x != c.chosen}
+
+
+def better(search: Search, x: Candidate, y: Candidate) -> bool:
+    """Whether y misses less of the limits than x, or, where both keep them, gains ENOUGH."""
+    if x.feasible and y.feasible:
+        return search.gain(x, y) >= ENOUGH
+    return sum(y.missed) < sum(x.missed)
+
+
+def stepped(at: Place, rows: list[dict[str, Any]]) -> None:
+    """Move the settings of these rows, which get the new values, objective and what stopped them; a setting
+    that keeps the limits and was stopped stays as it is. One that never keeps them leaves its row without one.
+    """
+    by_case = {f"{r['controller']} #{r['search']}": r for r in rows if r["values"]}
+    if not by_case:
+        return
+    now = at.walked(0, {case: json.loads(r["values"]) for case, r in by_case.items()})
+    first = dict(now)
+    moving = [c for c, x in now.items() if not x.feasible or "better with" in by_case[c]["stop"]]
+    size = {case: LARGE if now[case].feasible else SMALL for case in moving}
+    for number in range(1, MOST + 1):
+        beside = {case: at.beside(case, now[case], size[case]) for case in moving}
+        asked = {f"{case}: {k}": x for case, some in beside.items() for k, x in some.items()}
+        found = at.walked(number, asked) if asked else {}
+        for case in [*moving]:
+            some = {k: found[f"{case}: {k}"] for k in beside[case]}
+            best, x = at.search.ranked([*some.values()])[0], now[case]
+            if x.feasible:
+                by_case[case]["stop"] = short(at.search.stop(x, some))
+            if better(at.search, x, best):
+                now[case] = best
+                size[case] = LARGE if best.feasible else size[case]
+            elif size[case] < LARGE:
+                size[case] *= 2.0
+            else:
+                moving.remove(case)
+    for case, x in now.items():
+        row = by_case[case]
+        row |= {"on choice": digits(x.objective), "values": json.dumps(x.chosen)}
+        if x is not first[case]:
+            row["why"] = MOVED if first[case].feasible else MISSED
+        if not x.feasible:
+            row |= {"values": "", "on choice": "", "stop": OUTSIDE, "why": MISSED}
