@@ -208,7 +208,7 @@ def test_a_setting_is_moved_until_it_keeps_the_limits_and_no_step_gains():
     assert 1.0 / one["on choice"] > 1800.0
     # K_p of the second doubles twice, a step being a tenth of three decades; a third time misses the limit
     assert (two["why"], ends[1]["controller.K_p"]) == (steps.MOVED, pytest.approx(3981.0718))
-    assert "mean feasible under 1 ms more at least 1: K_p up" in two["stop"]
+    assert "the limit under 1 ms more: K_p up" in two["stop"]
     # the third was stopped by its search, and stays
     assert (three["why"], ends[2]["controller.K_p"]) == ("", 1900.0)
     # ten small steps do not bring the last one back

@@ -37,8 +37,10 @@ def digits(x: float) -> float:
 
 
 def short(stop: str) -> str:
-    """What stopped a search, without the tables in which its variables stand."""
-    return re.sub(r"(controller|observer|hardware|encoders)\.", "", stop)
+    """What stopped a search, in fewer words: without the tables of its variables and the bounds of limits."""
+    stop = re.sub(r"(controller|observer|hardware|encoders)\.", "", stop)
+    stop = stop.replace("stopped by nothing, as it is flat", "flat")
+    return re.sub(r"mean feasible under (.+?) at least [\d.]+", r"the limit under \1", stop)
 
 
 def builds(values: Values) -> bool:
