@@ -130,6 +130,7 @@ def fields() -> dict[str, Any]:
     )
     # b0 and the three behind it are ADRC laws
     light = [fine((*rabbit, c), LIGHT) for c in PLAN["controllers"]]
+    outside = sum(r["stop"] == OUTSIDE for r in rows("settings"))
     unstable = [r for r in rows("margins") if r["disk_margin"] == "0"]
     on_ground = [fine(("rabbit", "v0.6", "ground", c), LIGHT) for c in PLAN["controllers"]]
     on_20 = {
@@ -172,7 +173,7 @@ def fields() -> dict[str, Any]:
             count=len(rows("settings")),
             missed=sum(r["why"] == MISSED for r in rows("settings")),
             moved=sum(r["why"] == MOVED for r in rows("settings")),
-            outside=sum(r["stop"] == OUTSIDE for r in rows("settings")) or "none",
+            outside=f"; {outside} never did" if outside else "",
         ),
         "digits": last_digits(),
         "exact": Names(

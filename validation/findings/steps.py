@@ -3,7 +3,8 @@
 A search ends near a limit, where the last digits of a gain decide whether 20 of 20 walks keep it. So what it
 chose is written with the digits that are stored and walked again on the walks of choice. Steps of one gain
 follow: of SMALL of its range while the setting misses a limit, or of twice as much where none of them misses
-less; then of LARGE while one of them gains ENOUGH. Each time the best setting beside it takes its place.
+less; then of LARGE while one of them gains ENOUGH, also beyond the end of a range. Each time the best setting
+beside it takes its place.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ def digits(x: float) -> float:
 def short(stop: str) -> str:
     """What stopped a search, in fewer words: without the tables of its variables and the bounds of limits."""
     stop = re.sub(r"(controller|observer|hardware|encoders)\.", "", stop)
-    stop = stop.replace("stopped by nothing, as it is flat", "flat")
+    stop = stop.replace("stopped by nothing, as it is flat", "flat").replace("stopped by ", "")
     return re.sub(r"mean feasible under (.+?) at least [\d.]+", r"the limit under \1", stop)
 
 
@@ -91,7 +92,7 @@ class Place(NamedTuple):
         moved = {
             f"{n} {word}": c.chosen | {n: digits(r.shift(c.chosen[n], by))}
             for n, r in ranges.items()
-            if r is not None
+            if r is not None and n in c.chosen
             for word, by in (("down", -w), ("up", w))
         }
         return {k: x for k, x in moved.items() if x != c.chosen}
@@ -106,14 +107,19 @@ def better(search: Search, x: Candidate, y: Candidate) -> bool:
 
 def stepped(at: Place, rows: list[dict[str, Any]]) -> None:
     """Move the settings of these rows, which get the new values, objective and what stopped them; a setting
-    that keeps the limits and was stopped stays as it is. One that never keeps them leaves its row without one.
+    that keeps the limits and is tuned stays as it is, and so does a case of which no search found a better one.
+    One that never keeps the limits leaves its row without a setting.
     """
     by_case = {f"{r['controller']} #{r['search']}": r for r in rows if r["values"]}
     if not by_case:
         return
     now = at.walked(0, {case: json.loads(r["values"]) for case, r in by_case.items()})
     first = dict(now)
-    moving = [c for c, x in now.items() if not x.feasible or "better with" in by_case[c]["stop"]]
+    moving = [
+        case
+        for case, x in now.items()
+        if x.chosen and (not x.feasible or by_case[case]["stop"].startswith("not tuned"))
+    ]
     size = {case: LARGE if now[case].feasible else SMALL for case in moving}
     for number in range(1, MOST + 1):
         beside = {case: at.beside(case, now[case], size[case]) for case in moving}
