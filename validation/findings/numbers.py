@@ -251,29 +251,21 @@ def gains(at: Place) -> str:
 
 
 def stops() -> Names:
-    """What stopped the best searches, a limit or nothing, of how many; and what the last doubling gained."""
+    """Of how many best settings a step breaks a limit, and which ones a step would improve; how many of them,
+    and of those in the questions, gained in the last doubling.
+    """
     best = comparison.best_of(rows("settings"))
-    untuned = [r for r in best if r["stop"].startswith("not tuned")]
-    tuned = [r["stop"] for r in best if r not in untuned]
+    untuned = [place_of(r) for r in best if r["stop"].startswith("not tuned")]
     questions = statistics.questions()["question"]
-    sides: list[Place] = [tuple(q[k]) for q in questions for k in ("one", "other")]
-    titles = [("rabbit", "rough", "tracking", c) for c in ("m = 1", "NPD", "PID")]
-    asked = {at: best_row(at)["stop"].partition(";")[0] for at in (*sides, *titles)}
-    some = [f"{at[-1]} on {at[1]}" for at, x in asked.items() if x.startswith("not tuned")]
-    gains = {place_of(r): gain(place_of(r)) for r in best}
-    # how much the chosen search itself gained, where it did
-    own = [x for at in {*sides} if (x := gain(at, [best_row(at)])) >= ENOUGH]
-    still = [at for at in dict.fromkeys(sides) if gains[at] >= ENOUGH]
+    sides: set[Place] = {tuple(q[k]) for q in questions for k in ("one", "other")}
+    gaining = [at for r in best if gain(at := place_of(r)) >= ENOUGH]
     return Names(
         count=len(best),
-        limit=sum("1 ms more" in x for x in tuned),
-        untuned=len(untuned),
-        asked=", ".join(dict.fromkeys(some)) or "none",
-        gaining=sum(x >= ENOUGH for x in gains.values()),
-        sides=len(still) or "none",
-        asked_count=len({*sides}),
-        own=len(own),
-        own_most=f"{100 * max(own, default=0.0):.0f}",
+        limit=sum("1 ms more" in r["stop"] for r in best),
+        but=f", but for {', '.join(map(' '.join, untuned))}" if untuned else "",
+        gaining=len(gaining),
+        sides=sum(at in sides for at in gaining) or "none",
+        asked_count=len(sides),
     )
 
 
@@ -303,12 +295,12 @@ def place_of(row: Mapping[str, str]) -> Place:
     return row["hardware"], row["gait"], row["tuning"], row["controller"]
 
 
-def gain(at: Place, some: list[dict[str, str]] | None = None) -> float:
-    """The share [1] by which the last doubling made the best of all searches of a controller at a place, or of
-    some of them, better on the walks of choice; infinite where none kept the limits before it.
+def gain(at: Place) -> float:
+    """The share [1] by which the last doubling made the best search of a controller at a place better on the
+    walks of choice; infinite where none kept the limits before it.
     """
     sign = comparison.sign_of(at[2])
-    mine = some or [r for r in rows("settings") if place_of(r) == at]
+    mine = [r for r in rows("settings") if place_of(r) == at]
     before, after = (
         min((sign * float(r[k]) for r in mine if r[k]), default=math.inf)
         for k in ("before", "doubled")
