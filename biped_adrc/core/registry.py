@@ -83,7 +83,7 @@ def names(kind: str) -> tuple[str, ...]:
 @lru_cache
 def stored(kind: str) -> tuple[str, ...]:
     """Names of robots or gaits that the package has as files (folders with a robot.toml, gaits as .json); none
-    of another kind. Read once in a process: each scenario asks, which took a tenth of a short walk.
+    of another kind. They are read once in a process: reading was half the time of a new scenario.
     """
     if kind == "robot":
         return tuple(sorted(p.parent.name for p in data_folder("urdf").glob("*/robot.toml")))
