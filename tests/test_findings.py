@@ -169,7 +169,7 @@ def test_each_number_of_a_question_stands_on_the_page():
         assert re.sub(r"\s+", " ", numbers.in_words(answer)) in re.sub(r"\s+", " ", text)
 
 
-class Formula(steps.Place):
+class Formula(steps.Searches):
     """Settings that are judged by a formula in place of walks: the error is 1 / K_p, and more than 20 of K_p
     for each unit of K_d misses the limit.
     """
@@ -186,7 +186,7 @@ class Formula(steps.Place):
 def test_a_setting_is_moved_until_it_keeps_the_limits_and_no_step_gains():
     tables = searches.study_of("exact", "v0.6", "tracking")
     place = Formula(read_study(tables), None, None)
-    gains = {"1": (2100.0, 100.0), "2": (1000.0, 201.0), "3": (1900.0, 120.0), "4": (1e5, 50.0)}
+    gains = {"1": (2100.0, 100.0), "2": (1000.0, 201.0), "3": (900.0, 120.0), "4": (1e5, 50.0)}
     stops = {"2": "not tuned: better with K_p up by 3%", "3": "stopped by the objective: K_p up"}
     rows = [
         {
@@ -199,17 +199,18 @@ def test_a_setting_is_moved_until_it_keeps_the_limits_and_no_step_gains():
         }
         for i, (k_p, k_d) in gains.items()
     ]
-    steps.stepped(place, rows)
+    steps.move_all(place, rows)
     one, two, three, far = rows
     ends = [json.loads(r["values"]) for r in (one, two, three)]
     assert all(x["controller.K_p"] <= 20.0 * x["controller.K_d"] for x in ends)
-    # a ratio of 21 is some 5 % off the limit: steps of 3.5 % of K_p, or 2.6 % of K_d, bring it back
-    assert one["why"] == steps.MISSED
-    assert 1.0 / one["on choice"] > 1800.0
+    # a ratio of 21: one of 200 steps down from 1e6 to 1e3, then one up from 30 to 5000, which costs no error
+    assert one["why"] == steps.WHY_LIMIT
+    assert ends[0]["controller.K_p"] == pytest.approx(2100.0 * 1000.0**-0.005)
+    assert ends[0]["controller.K_d"] == pytest.approx(100.0 * (5000.0 / 30.0) ** 0.005)
     # K_p of the second doubles twice, a step being a tenth of three decades; a third time misses the limit
-    assert (two["why"], ends[1]["controller.K_p"]) == (steps.MOVED, pytest.approx(3981.0718))
+    assert (two["why"], ends[1]["controller.K_p"]) == (steps.WHY_GAIN, pytest.approx(3981.0718))
     assert "the limit under 1 ms more: K_p up" in two["stop"]
-    # the third was stopped by its search, and stays
-    assert (three["why"], ends[2]["controller.K_p"]) == ("", 1900.0)
+    # the third could double, but was stopped by its search, and stays
+    assert (three["why"], three["stop"], ends[2]["controller.K_p"]) == ("", stops["3"], 900.0)
     # ten small steps do not bring the last one back
     assert (far["values"], far["stop"]) == ("", steps.OUTSIDE)

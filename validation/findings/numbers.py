@@ -252,7 +252,7 @@ def gains(at: Place) -> str:
 
 def stops() -> Names:
     """Of how many best settings a step breaks a limit, and which ones a step would improve; how many of them,
-    and of those in the questions, gained in the last doubling.
+    and of those in the questions, gained in the last doubling; how many searches found nothing.
     """
     best = comparison.best_of(rows("settings"))
     untuned = [place_of(r) for r in best if r["stop"].startswith("not tuned")]
@@ -261,7 +261,8 @@ def stops() -> Names:
     gaining = [at for r in best if gain(at := place_of(r)) >= ENOUGH]
     return Names(
         count=len(best),
-        limit=sum("1 ms more" in r["stop"] for r in best),
+        limit=sum("the limit under" in r["stop"] for r in best),
+        nothing=sum("nothing better" in r["stop"] for r in rows("settings")),
         but=f", but for {', '.join(map(' '.join, untuned))}" if untuned else "",
         gaining=len(gaining),
         sides=sum(at in sides for at in gaining) or "none",
@@ -300,7 +301,7 @@ def gain(at: Place) -> float:
     walks of choice; infinite where none kept the limits before it.
     """
     sign = comparison.sign_of(at[2])
-    mine = [r for r in rows("settings") if place_of(r) == at]
+    mine = [r for r in rows("settings") if place_of(r) == at and r["values"]]
     before, after = (
         min((sign * float(r[k]) for r in mine if r[k]), default=math.inf)
         for k in ("before", "doubled")

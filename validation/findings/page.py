@@ -55,7 +55,7 @@ from validation.findings.numbers import (
     walks_of,
 )
 from validation.findings.searches import PLAN
-from validation.findings.steps import MISSED, MOVED, OUTSIDE
+from validation.findings.steps import OUTSIDE, WHY_GAIN, WHY_LIMIT
 
 IMAGES = ROOT / "docs" / "images"
 PAGES = [ROOT / "docs" / f"{name}.md" for name in ("findings", "comparison")]
@@ -171,8 +171,8 @@ def fields() -> dict[str, Any]:
         "stop": stops(),
         "steps": Names(
             count=len(rows("settings")),
-            missed=sum(r["why"] == MISSED for r in rows("settings")),
-            moved=sum(r["why"] == MOVED for r in rows("settings")),
+            missed=sum(r["why"] == WHY_LIMIT for r in rows("settings")),
+            moved=sum(r["why"] == WHY_GAIN for r in rows("settings")),
             outside=f"; {outside} never did" if outside else "",
         ),
         "digits": last_digits(),

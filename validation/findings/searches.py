@@ -22,7 +22,7 @@ import biped_adrc as ba
 from biped_adrc.studies.results import Results
 from biped_adrc.studies.study import read_study
 from validation.findings.statistics import questions
-from validation.findings.steps import Place, digits, short, stepped
+from validation.findings.steps import Searches, digits, move_all, short
 
 PLAN = tomllib.loads((Path(__file__).parent / "comparison.toml").read_text())
 SEARCH, CHOICE, REHEARSAL = 0, 100, 900
@@ -134,7 +134,7 @@ def search_at(
         | {"before": rounded(before[case]) if case in before else ""}
         for case in tables["cases"]
     ]
-    stepped(Place(read_study(tables), folder / f"{out.name}-steps", workers), rows)
+    move_all(Searches(read_study(tables), folder / f"{out.name}-steps", workers), rows)
     return rows
 
 

@@ -20,16 +20,17 @@ from typing import Any, NamedTuple
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
 from biped_adrc.studies.build import REFUSED, Values, scenario_of, trial_of
-from biped_adrc.studies.search import ENOUGH, Candidate, Search
-from biped_adrc.studies.study import Study
+from biped_adrc.studies.search import ENOUGH, STEPS, Candidate, Search
+from biped_adrc.studies.space import Span
+from biped_adrc.studies.study import Study, read_study
 
-SMALL, LARGE = 0.005, 0.1
+SMALL, LARGE = 0.005, STEPS["up"]
 """Steps as shares of a variable's range; LARGE is that by which a search says what stopped it."""
 MOST = 10
 """Most steps of a setting."""
-MOVED, MISSED = "moved: a step gained", "as stored it missed a limit"
-OUTSIDE = "no step came within the limits"
-"""Words of the rows: why a setting was moved, and that none was left."""
+WHY_GAIN, WHY_LIMIT = "moved: a step gained", "as stored it missed a limit"
+OUTSIDE, STILL = "no step came within the limits", "not tuned: still moving after the last step"
+"""Words of the rows: why a setting was moved, and where its steps ended without a stop."""
 
 
 def digits(x: float) -> float:
@@ -51,7 +52,7 @@ def builds(values: Values) -> bool:
     return False
 
 
-class Place(NamedTuple):
+class Searches(NamedTuple):
     """The searches of a place: the study that searched, where walks go, and how many processes walk."""
 
     study: Study
@@ -80,35 +81,42 @@ class Place(NamedTuple):
             "cases": {name: x for name, x in cases.items() if builds(study.base | x)},
             "seeds": list(self.search.walks.choice.seeds),
         }
-        found = ba.study(tables, self.folder / str(number), self.workers)
+        # a study of its own for other settings, as after more doublings
+        folder = self.folder / f"{number}-{read_study(tables).hash[:8]}"
+        found = ba.study(tables, folder, self.workers)
         for name, some in groupby(found.results(), lambda x: str(x.at["case"])):
             rows[name] = [(str(x.at["condition"]), x.row) for x in some]
         judged = self.search.judged
         return {k: judged(study.values_of(of[k]), number, x, rows[k]) for k, x in asked.items()}
 
+    def ranges(self, case: str) -> dict[str, Span]:
+        """The ranges of the variables that act in a case."""
+        acting = self.search.acting(self.study.values_of(case))
+        return {n: v.range for n, v in acting.items() if v.range is not None}
+
     def beside(self, case: str, c: Candidate, w: float) -> dict[str, dict[str, Any]]:
         """Settings a step w beside that of a case, each as its values of the variables."""
-        ranges = {n: v.range for n, v in self.search.acting(self.study.values_of(case)).items()}
         moved = {
             f"{n} {word}": c.chosen | {n: digits(r.shift(c.chosen[n], by))}
-            for n, r in ranges.items()
-            if r is not None and n in c.chosen
+            for n, r in self.ranges(case).items()
             for word, by in (("down", -w), ("up", w))
         }
         return {k: x for k, x in moved.items() if x != c.chosen}
 
 
-def better(search: Search, x: Candidate, y: Candidate) -> bool:
-    """Whether y misses less of the limits than x, or, where both keep them, gains ENOUGH."""
-    if x.feasible and y.feasible:
-        return search.gain(x, y) >= ENOUGH
-    return sum(y.missed) < sum(x.missed)
+def is_better(search: Search, new: Candidate, old: Candidate) -> bool:
+    """Whether a setting misses less of the limits than the old one, or, where both keep them, gains ENOUGH."""
+    if new.feasible and old.feasible:
+        return search.gain(old, new) >= ENOUGH
+    return sum(new.missed) < sum(old.missed)
 
 
-def stepped(at: Place, rows: list[dict[str, Any]]) -> None:
-    """Move the settings of these rows, which get the new values, objective and what stopped them; a setting
-    that keeps the limits and is tuned stays as it is, and so does a case of which no search found a better one.
-    One that never keeps the limits leaves its row without a setting.
+def move_all(at: Searches, rows: list[dict[str, Any]]) -> None:
+    """Walk the settings of these rows as they are stored, and move those that miss a limit or are not tuned.
+    The rows get the values, the objective, what stopped the setting, and why it was moved.
+
+    A search that found nothing better than its case has no setting to be moved. A row whose setting never keeps
+    the limits loses it.
     """
     by_case = {f"{r['controller']} #{r['search']}": r for r in rows if r["values"]}
     if not by_case:
@@ -118,7 +126,8 @@ def stepped(at: Place, rows: list[dict[str, Any]]) -> None:
     moving = [
         case
         for case, x in now.items()
-        if x.chosen and (not x.feasible or by_case[case]["stop"].startswith("not tuned"))
+        if at.ranges(case).keys() <= x.chosen.keys()
+        and (not x.feasible or by_case[case]["stop"].startswith("not tuned"))
     ]
     size = {case: LARGE if now[case].feasible else SMALL for case in moving}
     for number in range(1, MOST + 1):
@@ -130,17 +139,19 @@ def stepped(at: Place, rows: list[dict[str, Any]]) -> None:
             best, x = at.search.ranked([*some.values()])[0], now[case]
             if x.feasible:
                 by_case[case]["stop"] = short(at.search.stop(x, some))
-            if better(at.search, x, best):
+            if is_better(at.search, best, x):
                 now[case] = best
                 size[case] = LARGE if best.feasible else size[case]
             elif size[case] < LARGE:
                 size[case] *= 2.0
             else:
                 moving.remove(case)
+    for case in moving:
+        by_case[case]["stop"] = STILL
     for case, x in now.items():
         row = by_case[case]
         row |= {"on choice": digits(x.objective), "values": json.dumps(x.chosen)}
         if x is not first[case]:
-            row["why"] = MOVED if first[case].feasible else MISSED
+            row["why"] = WHY_GAIN if first[case].feasible else WHY_LIMIT
         if not x.feasible:
-            row |= {"values": "", "on choice": "", "stop": OUTSIDE, "why": MISSED}
+            row |= {"values": "", "on choice": "", "stop": OUTSIDE, "why": WHY_LIMIT}
