@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
@@ -231,23 +230,12 @@ def compared(one: Place, other: Place, condition: str = PUSH, measure: str = "er
     return in_words(statistics.compare(*sides, measure, DRAWN))
 
 
-def best_row(at: Place) -> dict[str, str]:
-    """The row of the best search at a place."""
-    return next(r for r in comparison.best_of(rows("settings")) if place_of(r) == at)
-
-
 def lengths(tuning: str) -> str:
     """ "40 to 160": the most settings for each gain that a search may try at the places of a tuning."""
     names = [", ".join(at) for at in places() if at[2] == tuning]
     plans = [PLAN["search"] | PLAN["search_more"].get(name, {}) for name in names]
     most = [p["budget"] << p["doublings"] for p in plans]
     return f"{min(most)} to {max(most)}"
-
-
-def gains(at: Place) -> str:
-    """K_p and K_d of the best search."""
-    values = json.loads(best_row(at)["values"])
-    return " / ".join(f"{values[f'controller.{k}']:.3g}" for k in ("K_p", "K_d"))
 
 
 def stops() -> Names:
@@ -283,12 +271,6 @@ def pairs(one: Place, other: Place) -> list[float]:
 def of_all(at: Place, condition: str) -> str:
     """The share [%] of feasible walks under a condition, over all searches at a place."""
     return f"{100.0 * np.isfinite(side_of(at, condition).errors).mean():.1f}"
-
-
-def answer_before() -> str:
-    """The answer to the first question in the version before this one."""
-    with (statistics.HERE / "versions.csv").open() as file:
-        return [*csv.DictReader(file)][-2]["answers"].partition(",")[0]
 
 
 def place_of(row: Mapping[str, str]) -> Place:

@@ -25,7 +25,6 @@ from validation.findings.numbers import (
     LOADS,
     PUSH,
     Names,
-    answer_before,
     answers,
     by_condition,
     by_controller,
@@ -33,7 +32,6 @@ from validation.findings.numbers import (
     error_in_words,
     feasible,
     fine,
-    gains,
     largest_force,
     last_digits,
     lengths,
@@ -116,10 +114,9 @@ def fields() -> dict[str, Any]:
     rabbit, exact = ("rabbit", "v0.6", "tracking"), ("exact", "v0.6", "tracking")
     rough = ("rabbit", "rough", "tracking")
     ground = {gait: ("rabbit", gait, "ground", "m = 1") for gait in PLAN["gaits"]}
-    of_ground, of_tracking = ("exact", "v0.6", "ground", "NPD"), (*exact, "NPD")
+    of_ground = ("exact", "v0.6", "ground", "NPD")
     best = comparison.best_of(rows("settings"))
     every_pair = pairs((*rabbit, "m = 1"), (*rabbit, "NPD"))
-    of_pid = pairs((*rough, "m = 1"), (*rough, "PID"))
     walked_10, so_tuned = (
         [
             fine((hardware, "v0.6", tuning, c), "10 mm")
@@ -158,7 +155,6 @@ def fields() -> dict[str, Any]:
             b0_hip=fine((*rabbit, "ADRC b0"), HIP),
             m1_all=of_all((*rabbit, "m = 1"), HIP),
             npd_all=of_all((*rabbit, "NPD"), HIP),
-            before=answer_before(),
         ),
         "limit": Names(least=min(fine(place_of(r), comparison.LATER) for r in best)),
         "range": Names(
@@ -185,10 +181,8 @@ def fields() -> dict[str, Any]:
         "ground": Names(
             each=", ".join(str(np.isfinite(x).sum()) for x in side_of(of_ground, "10 mm").errors),
         ),
-        "gains": Names(ground=gains(of_ground), tracking=gains(of_tracking)),
         "again": Names(
             pid=compared((*rough, "m = 1"), (*rough, "PID")),
-            pid_most=f"{max(of_pid):.2g}",
         ),
         "margin": Names(
             none=len(unstable),
