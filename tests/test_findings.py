@@ -174,7 +174,7 @@ class Formula(steps.Searches):
     for each unit of K_d misses the limit.
     """
 
-    def walked(self, number, asked):
+    def judge(self, number, asked):
         result = {}
         for name, x in asked.items():
             k_p, k_d = x["controller.K_p"], x["controller.K_d"]

@@ -246,11 +246,12 @@ def stops() -> Names:
     untuned = [place_of(r) for r in best if r["stop"].startswith("not tuned")]
     questions = statistics.questions()["question"]
     sides: set[Place] = {tuple(q[k]) for q in questions for k in ("one", "other")}
+    nothing = [r["controller"] for r in rows("settings") if "nothing better" in r["stop"]]
     gaining = [at for r in best if gain(at := place_of(r)) >= ENOUGH]
     return Names(
         count=len(best),
         limit=sum("the limit under" in r["stop"] for r in best),
-        nothing=sum("nothing better" in r["stop"] for r in rows("settings")),
+        nothing=f"{len(nothing)} searches ({', '.join(dict.fromkeys(nothing))})",
         but=f", but for {', '.join(map(' '.join, untuned))}" if untuned else "",
         gaining=len(gaining),
         sides=sum(at in sides for at in gaining) or "none",

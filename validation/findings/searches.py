@@ -22,7 +22,7 @@ import biped_adrc as ba
 from biped_adrc.studies.results import Results
 from biped_adrc.studies.study import read_study
 from validation.findings.statistics import questions
-from validation.findings.steps import Searches, digits, move_all, short
+from validation.findings.steps import Searches, digits, move_all, stop_in_words
 
 PLAN = tomllib.loads((Path(__file__).parent / "comparison.toml").read_text())
 SEARCH, CHOICE, REHEARSAL = 0, 100, 900
@@ -151,7 +151,7 @@ def row_of(case: str, found: Results) -> dict[str, Any]:
     return row | {
         "candidates": sum(c.walked for c in choice.candidates),
         "doubled": rounded(best.objective),
-        "stop": short(choice.stop),
+        "stop": stop_in_words(choice.stop),
         "values": json.dumps(values),
     }
 

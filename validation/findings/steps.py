@@ -38,7 +38,7 @@ def digits(x: float) -> float:
     return float(f"{x:.8g}")
 
 
-def short(stop: str) -> str:
+def stop_in_words(stop: str) -> str:
     """What stopped a search, in fewer words: without the tables of its variables and the bounds of limits."""
     stop = re.sub(r"(controller|observer|hardware|encoders)\.", "", stop)
     stop = stop.replace("stopped by nothing, as it is flat", "flat").replace("stopped by ", "")
@@ -65,7 +65,7 @@ class Searches(NamedTuple):
         assert self.study.search is not None
         return self.study.search
 
-    def walked(self, number: int, asked: Mapping[str, dict[str, Any]]) -> dict[str, Candidate]:
+    def judge(self, number: int, asked: Mapping[str, dict[str, Any]]) -> dict[str, Candidate]:
         """Settings "case" or "case: step", by their values of the variables, judged by the walks of choice.
         number: of the round, whose rows have a folder of their own.
         """
@@ -121,7 +121,7 @@ def move_all(at: Searches, rows: list[dict[str, Any]]) -> None:
     by_case = {f"{r['controller']} #{r['search']}": r for r in rows if r["values"]}
     if not by_case:
         return
-    now = at.walked(0, {case: json.loads(r["values"]) for case, r in by_case.items()})
+    now = at.judge(0, {case: json.loads(r["values"]) for case, r in by_case.items()})
     first = dict(now)
     moving = [
         case
@@ -133,12 +133,12 @@ def move_all(at: Searches, rows: list[dict[str, Any]]) -> None:
     for number in range(1, MOST + 1):
         beside = {case: at.beside(case, now[case], size[case]) for case in moving}
         asked = {f"{case}: {k}": x for case, some in beside.items() for k, x in some.items()}
-        found = at.walked(number, asked) if asked else {}
+        found = at.judge(number, asked) if asked else {}
         for case in [*moving]:
             some = {k: found[f"{case}: {k}"] for k in beside[case]}
             best, x = at.search.ranked([*some.values()])[0], now[case]
             if x.feasible:
-                by_case[case]["stop"] = short(at.search.stop(x, some))
+                by_case[case]["stop"] = stop_in_words(at.search.stop(x, some))
             if is_better(at.search, best, x):
                 now[case] = best
                 size[case] = LARGE if best.feasible else size[case]
